@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pam_ros.control.allocation import OneSide, TwoSides
+from pam_ros.control.allocation import OneSide
 from pam_ros.control.limits import Limits
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.effects import PressureLag, Slack
@@ -43,10 +43,22 @@ def test_a_load_without_a_muscle_has_no_bounds():
     assert shared(cart()).reach == (-float('inf'), float('inf'))
 
 
-def test_a_load_beyond_the_limits_of_pressure_is_refused():
-    heavy = single_muscle_joint(load=Mass(mass=130.0))
+HEAVY_ARM = Arm(mass=100.0, arm=0.5, hanging_at=-1.5)
+
+
+@pytest.mark.parametrize(
+    ('joint', 'high'),
+    [
+        (single_muscle_joint(load=Mass(mass=130.0)), 100e3),
+        (Joint((Actuator(contraction=0.1),) * 2, HEAVY_ARM, Pulley(radius=0.01)), 50e3),
+        # On a level track it would have to push.
+        (single_muscle_joint(load=Mass(mount='horizontal'), effects=[Slack(share=1.0)]), 600e3),
+    ],
+    ids=['mass', 'arm', 'cart'],
+)
+def test_a_load_that_the_muscles_cannot_hold_is_refused(joint, high):
     with pytest.raises(ParameterError, match='cannot be held anywhere'):
-        shared(heavy, Limits(pressure_high=100e3))
+        shared(joint, Limits(pressure_high=high))
 
 
 def parallel(*effects):
@@ -123,12 +135,6 @@ def test_muscles_that_pull_everywhere_in_the_reach_have_the_same_one_if_they_can
     assert shared(parallel(Slack(share=1.0))).reach == pytest.approx(shared(parallel()).reach)
 
 
-def test_one_muscle_that_cannot_push_holds_no_cart_on_a_level_track():
-    muscle = Actuator(effects=[Slack(share=1.0)])
-    with pytest.raises(ParameterError, match='cannot be held anywhere'):
-        shared(Joint((muscle,), Mass(mount='horizontal'), Straight()))
-
-
 def test_a_muscle_is_given_no_pressure_that_is_too_low_to_have_an_effect():
     allocation = shared(hanging())
     (muscle,) = allocation.model.at(0.2).muscles
@@ -151,11 +157,6 @@ def efforts(angle):
     for effort in (-1e4, 1e4):
         found.append(effort - SHARING.split(effort, 20.0, angle).short)
     return found
-
-
-def test_two_muscles_against_each_other_have_a_stiffness_to_choose():
-    assert isinstance(SHARING, TwoSides)
-    assert SHARING.can_stiffen
 
 
 @given(st.floats(-0.4, 0.4), st.floats(0.0, 1.0))
@@ -226,13 +227,6 @@ def test_within_its_reach_it_can_be_held_and_beyond_it_not():
     narrow = shared(pair(), Limits(pressure_high=3e5))
     assert narrow.reach[0] >= low
     assert narrow.reach[1] <= high
-
-
-def test_an_arm_that_cannot_be_held_is_refused():
-    hung = Actuator(contraction=0.1)
-    joint = Joint((hung, hung), Arm(mass=100.0, arm=0.5, hanging_at=-1.5), Pulley(radius=0.01))
-    with pytest.raises(ParameterError, match='cannot be held anywhere'):
-        shared(joint, Limits(pressure_high=50e3))
 
 
 def test_each_muscle_keeps_its_own_effects():

@@ -64,9 +64,11 @@ def test_friction_turns_over_with_the_motion_and_is_that_of_a_load_that_slides(b
     assert losses.effort == down
 
 
-def test_without_effects_nothing_is_lost():
-    losses = losses_of(single_muscle_joint())
-    assert losses.follow(DT, Reference(0.05, 0.1), (300e3,)) == 0.0
+@pytest.mark.parametrize('joint', [single_muscle_joint(), nominal()], ids=['one', 'pair'])
+def test_without_effects_nothing_is_lost(joint):
+    losses, pressures = losses_of(joint), (3e5,) * len(joint.muscles)
+    losses.start(0.0, pressures)
+    assert losses.follow(DT, Reference(0.05, 0.1), pressures) == 0.0
 
 
 def test_it_lists_what_it_leaves_to_feedback():
@@ -103,23 +105,6 @@ def rms(believed, true, seconds=6.0):
         rig.command(law.update(DT, now, float(rig.position[0])))
         rig.advance(2)
     return float(np.sqrt(np.mean(np.square(errors[-1000:]))))
-
-
-def test_nothing_is_lost_of_a_pair_where_nothing_is_configured():
-    losses = losses_of(nominal())
-    losses.start(0.0, (3e5, 3e5))
-    assert losses.follow(DT, Reference(0.1, 1.0), (3e5, 3e5)) == 0.0
-
-
-def test_friction_of_the_load_is_a_torque_and_resists_the_motion():
-    losses = losses_of(nominal(load=FRICTION))
-    losses.start(0.0, (3e5, 3e5))
-    for n in range(200):
-        lost = losses.follow(DT, Reference(0.5 * n * DT, 0.5), (3e5, 3e5))
-    assert lost == pytest.approx(0.3, rel=0.02)
-    for n in range(200):
-        lost = losses.follow(DT, Reference(0.2 - 0.5 * n * DT, -0.5), (3e5, 3e5))
-    assert lost == pytest.approx(-0.3, rel=0.02)
 
 
 @pytest.mark.slow

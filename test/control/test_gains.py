@@ -14,25 +14,27 @@ from pam_ros.errors import ParameterError
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support.assertions import no_error
 from support.closed_loop import shared
+from support.joint_loop import JOINTS
 from support.pair_loop import nominal
-
-PAIR = shared(nominal())
 
 
 @pytest.mark.parametrize(
-    ('given', 'named'),
+    ('make', 'given', 'named'),
     [
-        ({'bandwidth': 0.0}, ['bandwidth = 0.0', '0.5 to 200']),
-        ({'bandwidth': math.nan}, ['bandwidth = nan']),
-        ({'disturbance_bound': -1.0}, ['disturbance_bound', 'above 0']),
-        ({'bandwidth': 60.0}, ['fast_bandwidth = 50', 'bandwidth = 60']),
-        ({'velocity_bandwidth': 40.0}, ['velocity_bandwidth = 40', 'at least 4 times']),
-        ({'observer_bandwidth': 20.0}, ['observer_bandwidth = 20', 'slower']),
+        (Gains, {'bandwidth': 0.0}, ['bandwidth = 0.0', '0.5 to 200']),
+        (Gains, {'bandwidth': math.nan}, ['bandwidth = nan']),
+        (Gains, {'disturbance_bound': -1.0}, ['disturbance_bound', 'above 0']),
+        (Gains, {'bandwidth': 60.0}, ['fast_bandwidth = 50', 'bandwidth = 60']),
+        (Gains, {'velocity_bandwidth': 40.0}, ['velocity_bandwidth = 40', 'at least 4 times']),
+        (Gains, {'observer_bandwidth': 20.0}, ['observer_bandwidth = 20', 'slower']),
+        (Gains.revolute, {'velocity_bandwidth': 50.0}, ['give at least 4 times as much']),
+        (Gains.revolute, {'observer_bandwidth': 40.0}, ['is above bandwidth = 25 1/s']),
+        (Gains.revolute, {'disturbance_bound': 0.0}, ['disturbance_bound = 0.0 is not allowed']),
     ],
 )
-def test_gains_that_break_a_condition_are_refused(given, named):
+def test_gains_that_break_a_condition_are_refused(make, given, named):
     with pytest.raises(ParameterError) as error:
-        Gains(**given)
+        make(**given)
     for text in named:
         assert text in str(error.value)
 
@@ -41,13 +43,27 @@ def test_an_observer_that_is_off_needs_no_bandwidth():
     assert not Gains(observer=False, observer_bandwidth=20.0).observer
 
 
-def test_gains_that_do_not_suit_a_rig_or_a_rate_are_refused():
-    allocation = shared(single_muscle_joint())
-    Gains().check(allocation, 0.002)
-    with pytest.raises(ParameterError, match='too fast for a control rate of 50 Hz'):
-        Gains().check(allocation, 0.02)
-    with pytest.raises(ParameterError, match='disturbance_bound = 5000 N cannot be overcome'):
-        Gains(disturbance_bound=5000.0).check(allocation, 0.002)
+@pytest.mark.parametrize(
+    'joint', [single_muscle_joint(), nominal(), *JOINTS.values()], ids=['one', 'pair', *JOINTS]
+)
+def test_the_default_gains_suit_every_joint(joint):
+    with no_error():
+        Gains.for_joint(joint).check(shared(joint), 2e-3)
+
+
+@pytest.mark.parametrize(
+    ('joint', 'given', 'period', 'sentence'),
+    [
+        (single_muscle_joint(), {}, 0.02, 'too fast for a control rate of 50 Hz'),
+        (single_muscle_joint(), {'disturbance_bound': 5000.0}, 2e-3, '5000 N cannot be overcome'),
+        (nominal(), {'disturbance_bound': 500.0}, 2e-3, '500 N m cannot be overcome'),
+        (nominal(), {'velocity_bandwidth': 1e3}, 2e-3, 'too fast for a control rate of 500 Hz'),
+        (nominal(), {}, 0.05, 'too fast for a control rate of 20 Hz: give at most 30'),
+    ],
+)
+def test_gains_that_do_not_suit_a_joint_or_a_rate_are_refused(joint, given, period, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        Gains.for_joint(joint, **given).check(shared(joint), period)
 
 
 def test_width_and_gain_are_those_of_the_docstring():
@@ -66,50 +82,3 @@ def test_the_error_bound_is_the_absolute_area_of_the_impulse_response(damping):
     area = trapezoid(np.abs(h), t)
     expected = 50.0 / (20.0 * gains.bandwidth) * area
     assert gains.error_bound(50.0, 20.0, w) == pytest.approx(expected, rel=1e-4)
-
-
-# A joint that turns ------------------------------------------------------------------------------
-
-
-def test_a_joint_that_turns_has_defaults_of_its_own():
-    assert Gains.for_joint(nominal()) == Gains.revolute()
-    assert Gains.for_joint(single_muscle_joint()) == Gains()
-    assert Gains.revolute().is_revolute
-    assert Gains.revolute(bandwidth=30.0).bandwidth == 30.0
-    assert Gains.revolute().disturbance_bound < Gains().disturbance_bound
-
-
-def test_the_defaults_suit_the_default_pair():
-    with no_error():
-        Gains.revolute().check(PAIR, 2e-3)
-
-
-@pytest.mark.parametrize(
-    ('given', 'period', 'sentence'),
-    [
-        ({'disturbance_bound': 500.0}, 2e-3, 'disturbance_bound = 500 N m cannot be overcome'),
-        ({'velocity_bandwidth': 1000.0}, 2e-3, 'too fast for a control rate of 500 Hz'),
-        ({}, 0.05, 'too fast for a control rate of 20 Hz: give at most 30'),
-    ],
-)
-def test_what_does_not_suit_the_joint_is_refused(given, period, sentence):
-    with pytest.raises(ParameterError, match=sentence):
-        Gains.revolute(**given).check(PAIR, period)
-
-
-@pytest.mark.parametrize(
-    ('given', 'sentence'),
-    [
-        ({'velocity_bandwidth': 50.0}, 'give at least 4 times as much'),
-        ({'observer_bandwidth': 40.0}, 'is above bandwidth = 25 1/s'),
-        ({'disturbance_bound': 0.0}, 'disturbance_bound = 0.0 is not allowed'),
-    ],
-)
-def test_bandwidths_out_of_order_are_refused_of_a_joint_that_turns(given, sentence):
-    with pytest.raises(ParameterError, match=sentence):
-        Gains.revolute(**given)
-
-
-def test_the_switching_gain_is_that_of_one_muscle_with_inertia_for_mass():
-    mine, other = Gains.revolute(disturbance_bound=4.0), Gains(disturbance_bound=4.0)
-    assert mine.switching_gain(0.2) == other.switching_gain(0.2)

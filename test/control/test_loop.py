@@ -22,7 +22,7 @@ from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from support import closed_loop
-from support.recorded_loop import BOUNDS, PERIOD, Recorder, first, recorded_loop
+from support.recorded_loop import BOUNDS, PERIOD, Recorder, first, recorded_loop, seen
 
 
 @pytest.fixture
@@ -48,28 +48,25 @@ def test_it_starts_where_the_load_is_at_the_pressure_that_is_there(loop):
 
 def test_it_waits_for_the_pressure_that_is_there(loop):
     loop.awaits_chamber = True
-    loop.see(Measurement(1.0, 0.05))
-    assert loop.tick(1.0) is None
+    assert seen(loop, 1.0) is None
     assert loop.state == WAITING
     loop.chambers = (123e3,)
     assert loop.tick(1.002) == first(1)
     assert loop.law.starts == [(0.05, (123e3,))]
 
 
-def test_seen_again_it_begins_at_what_is_measured_not_at_what_was_commanded(loop):
+@pytest.mark.parametrize('chambers', [None, (40e3,)], ids=['unknown', 'not vented yet'])
+def test_without_states_it_vents_and_begins_again_at_what_is_measured(loop, chambers):
     loop.safe = VENT
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     assert loop.tick(1.2) == (0.0,)
-    loop.see(Measurement(1.3, 0.01))
-    loop.chambers = (40e3,)  # it has not vented yet
-    loop.tick(1.3)
-    assert loop.law.starts[-1] == (0.01, (40e3,))
+    loop.chambers = chambers
+    seen(loop, 1.3, 0.01)
+    assert loop.law.starts[-1] == (0.01, chambers or (0.0,))
 
 
 def test_a_measurement_is_used_once_and_an_old_one_never(loop):
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     loop.tick(1.002)
     loop.see(Measurement(0.999, 0.07))
     loop.tick(1.004)
@@ -87,45 +84,30 @@ def test_steps_are_as_long_as_they_were(loop):
 
 
 def test_without_states_the_pressure_is_held_and_control_restarts_later(loop):
-    loop.see(Measurement(1.0, 0.05))
-    assert loop.tick(1.0) == first(1)
+    assert seen(loop, 1.0) == first(1)
     assert loop.tick(1.09) == first(2)
     assert loop.tick(1.11) == first(2)
     assert loop.state == BLIND
-    loop.see(Measurement(2.0, 0.03))
-    loop.tick(2.0)
+    seen(loop, 2.0, 0.03)
     assert loop.law.starts[-1] == (0.03, first(2))
     assert (loop.state, loop.starts) == (RUNNING, 2)
 
 
-def test_without_states_it_vents_where_that_is_wished(loop):
-    loop.safe = VENT
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
-    assert loop.tick(1.2) == (0.0,)
-    loop.see(Measurement(1.3, 0.01))
-    loop.tick(1.3)
-    assert loop.law.starts[-1] == (0.01, (0.0,))
-
-
 def test_a_rig_that_returns_later_finds_no_command_to_vent(loop):
     loop.safe = VENT
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     assert loop.tick(2.0) == (0.0,)
     assert loop.tick(2.0 + 0.9 * VENTING) == (0.0,)
     assert loop.tick(2.0 + 1.1 * VENTING) is None
     assert loop.state == BLIND
-    loop.see(Measurement(3.0, 0.03))
-    assert loop.tick(3.0) == first(2)
+    assert seen(loop, 3.0, 0.03) == first(2)
     assert loop.tick(4.0) == (0.0,)  # and again for a while where states stay away again
 
 
 def test_it_vents_slowly_and_in_proportion(loop):
     loop.safe, loop.vent_time = VENT, 2.0
     loop.law.update = lambda *_: (300e3, 100e3)
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     assert loop.tick(1.5) == (300e3, 100e3)
     assert loop.tick(2.5) == pytest.approx((150e3, 50e3))
     assert loop.tick(3.5) == (0.0, 0.0)
@@ -136,8 +118,7 @@ def test_it_vents_slowly_and_in_proportion(loop):
 def test_venting_is_suspended_while_the_rig_receives_no_commands(loop):
     loop.safe, loop.vent_time = VENT, 2.0
     loop.law.update = lambda *_: (300e3,)
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     assert loop.tick(1.5) == (300e3,)
     assert loop.tick(2.0) == pytest.approx((225e3,))
     loop.is_received = False
@@ -151,13 +132,11 @@ def test_venting_is_suspended_while_the_rig_receives_no_commands(loop):
 
 def test_seen_again_while_it_vents_it_begins_at_the_pressure_that_is_left(loop):
     loop.safe, loop.vent_time = VENT, 2.0
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     loop.tick(1.5)
     (left,) = loop.tick(2.0)
     assert left == pytest.approx(0.75 * first(1)[0])
-    loop.see(Measurement(2.1, 0.04))
-    loop.tick(2.1)
+    seen(loop, 2.1, 0.04)
     assert loop.law.starts[-1] == (0.04, (left,))
     assert loop.tick(3.0) == first(2)  # and from there where states stay away again
     assert loop.tick(4.0) == pytest.approx((0.5 * first(2)[0],))
@@ -173,25 +152,21 @@ def test_what_is_left_of_pressures(loop, vent_time, time, share):
 
 def test_a_rig_that_is_left_finds_no_command_until_it_is_seen(loop):
     loop.safe, loop.vent_time = VENT, 2.0
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     assert loop.tick(1.5) == first(1)
     loop.leave()
     assert loop.tick(1.6) is None
-    loop.see(Measurement(2.0, 0.03))
-    assert loop.tick(2.0) == first(2)
+    assert seen(loop, 2.0, 0.03) == first(2)
     assert loop.tick(2.5) == first(2)  # the next rig is not left
 
 
 def test_it_vents_as_long_each_time_that_states_stay_away(loop):
     """Also where it has waited for a pressure between, without having begun."""
     loop.safe = VENT
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     loop.tick(2.0)
     loop.awaits_chamber = True
-    loop.see(Measurement(3.0, 0.03))
-    assert loop.tick(3.0) is None
+    assert seen(loop, 3.0, 0.03) is None
     assert loop.tick(4.0) == (0.0,)
     assert loop.tick(4.0 + 1.1 * VENTING) is None
 
@@ -199,45 +174,38 @@ def test_it_vents_as_long_each_time_that_states_stay_away(loop):
 @pytest.mark.parametrize(('safe', 'meanwhile'), [(VENT, None), (HOLD, first(1))])
 def test_where_states_return_it_waits_for_the_pressure_that_is_there_now(loop, safe, meanwhile):
     loop.safe = safe
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     loop.tick(2.0)
     loop.awaits_chamber = True
-    loop.see(Measurement(3.0, 0.03))
-    assert loop.tick(3.0) == meanwhile
+    assert seen(loop, 3.0, 0.03) == meanwhile
     loop.chambers = (123e3,)
     assert loop.tick(3.002) == first(2)
     assert loop.law.starts[-1] == (0.03, (123e3,))
 
 
 def test_disabled_it_publishes_nothing_and_enabled_it_restarts(loop):
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     loop.enable(False)
     assert loop.tick(1.002) is None
     assert loop.state == DISABLED
     loop.enable(False)
     loop.enable(True)
     assert loop.tick(1.004) is None  # it has not seen anything since
-    loop.see(Measurement(1.006, 0.04))
-    loop.tick(1.006)
+    seen(loop, 1.006, 0.04)
     assert [position for position, _ in loop.law.starts] == [0.05, 0.04]
 
 
 def test_a_clock_that_jumped_back_is_a_new_beginning(loop):
-    loop.see(Measurement(100.0, 0.05))
-    loop.tick(100.0)
+    seen(loop, 100.0)
     loop.forget()
-    loop.see(Measurement(1.0, 0.06))
-    loop.tick(1.0)
+    seen(loop, 1.0, 0.06)
     assert loop.state == RUNNING
     assert loop.law.starts[-1][0] == 0.06
     assert loop.law.calls[-1][0] == pytest.approx(PERIOD)
 
 
 def test_another_law_takes_over_in_flight(loop):
-    loop.see(Measurement(1.0, 0.05))
-    last = loop.tick(1.0)
+    last = seen(loop, 1.0)
     other = Recorder()
     loop.change(other, ReferenceSource(Shape(), (-1.0, 1.0)))
     assert other.starts == [(0.05, last)]
@@ -245,8 +213,7 @@ def test_another_law_takes_over_in_flight(loop):
 
 
 def test_another_law_that_cannot_hold_the_reference_starts_at_the_load(loop):
-    loop.see(Measurement(1.0, 0.05))
-    last = loop.tick(1.0)
+    last = seen(loop, 1.0)
     loop.law.terms.position = 0.049
     other, source = Recorder(), ReferenceSource(Shape(), (-1.0, 0.02))
     sentence = loop.change(other, source)
@@ -304,7 +271,6 @@ def test_pressures_of_several_muscles_are_handled_alike():
     source = ReferenceSource(Shape.revolute(), (-1.0, 1.0), 'rad')
     loop = Loop(Two(), source, PERIOD, Plausibility(BOUNDS))
     loop.safe, loop.chambers = VENT, (123e3, 150e3)
-    loop.see(Measurement(1.0, 0.05))
-    assert loop.tick(1.0) == loop.pressures == 2 * first(1)
+    assert seen(loop, 1.0) == loop.pressures == 2 * first(1)
     assert loop.law.starts == [(0.05, (123e3, 150e3))]
     assert loop.tick(1.2) == loop.pressures == (0.0, 0.0)

@@ -7,7 +7,7 @@ from itertools import pairwise
 import pytest
 
 from pam_ros.control.loop import BLIND, LATE, RUNNING, STOPPING, Measurement
-from support.recorded_loop import PERIOD, first, recorded_loop
+from support.recorded_loop import PERIOD, first, recorded_loop, seen
 
 
 @pytest.fixture
@@ -29,16 +29,14 @@ def test_a_measurement_that_is_late_is_not_used(loop):
 
 @pytest.mark.parametrize(('late', 'is_used'), [(0.0, True), (LATE, True), (1.01 * LATE, False)])
 def test_what_arrives_late_is_not_used_although_the_step_is_within_a_period(loop, late, is_used):
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     loop.see(Measurement(1.1 - late, 0.06, late=late))
     loop.tick(1.1)
     assert (loop.law.calls[-1][2] is not None) == is_used
 
 
 def test_a_measurement_that_is_later_than_the_timeout_is_none(loop):
-    loop.see(Measurement(1.0, 0.05))
-    loop.tick(1.0)
+    seen(loop, 1.0)
     loop.see(Measurement(1.19, 0.05))
     assert loop.tick(1.3) == first(1)
     assert loop.state == BLIND
@@ -47,16 +45,14 @@ def test_a_measurement_that_is_later_than_the_timeout_is_none(loop):
 def test_control_does_not_begin_at_a_measurement_that_is_late(loop):
     loop.see(Measurement(1.0, 0.05))
     assert loop.tick(1.05) is None
-    loop.see(Measurement(1.06, 0.04))
-    assert loop.tick(1.06) == first(1)
+    assert seen(loop, 1.06, 0.04) == first(1)
     assert loop.law.starts == [(0.04, None)]
     loop.tick(1.2)
     assert loop.state == BLIND
     loop.see(Measurement(1.25, 0.03))
     assert loop.tick(1.3) == first(1)
     assert (loop.state, loop.starts) == (BLIND, 1)
-    loop.see(Measurement(1.3, 0.02))
-    loop.tick(1.3)
+    seen(loop, 1.3, 0.02)
     assert loop.law.starts[-1] == (0.02, first(1))
     assert (loop.state, loop.starts) == (RUNNING, 2)
 

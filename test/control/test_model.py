@@ -27,21 +27,6 @@ EFFECTS = [
 ]
 
 
-@pytest.mark.parametrize('effects', [(), EFFECTS])
-@pytest.mark.parametrize('v', [0.1, -0.1])
-def test_it_is_the_rig_without_memory(effects, v):
-    joint = single_muscle_joint(Muscle(zeta=0.15), Mass(mass=20.0), effects)
-    rig, model = Simulation([joint]), ControlModel(joint)
-    p, y = (280e3,), 0.05
-    rig.reset(p, [y], [v])
-    force, stiffness, _, acceleration = np.ravel(rig.muscle_outputs())
-    assert model.effort(p, y) == pytest.approx(force, rel=1e-12)
-    assert model.stiffness(p, y) == pytest.approx(stiffness, rel=1e-12)
-    net = (model.pull(p, y, v) - model.weight) / model.inertia
-    assert net == pytest.approx(acceleration, rel=1e-9)
-    assert model.pull(p, y, v) == pytest.approx(force - model.damping(p, y, v) * v, rel=1e-12)
-
-
 def test_the_inverse_is_one():
     model = ControlModel(single_muscle_joint(effects=[LengthOffset(offset=0.02)]))
     (muscle,) = model.at(0.03).muscles
@@ -89,37 +74,34 @@ def test_the_arms_of_a_pair_are_the_radius():
     assert PAIR.weight == 0.0
 
 
-def test_the_acceleration_of_a_pair_is_the_rigs():
-    joint = pair(load=[ViscousFriction(coefficient=0.2), Payload(mass=0.4)])
-    model, rig = ControlModel(joint), Simulation([joint])
-    rig.reset([4e5, 2e5], [0.1], [1.3])
-    acceleration = rig.joint_outputs().acceleration[0]
-    net = model.pull((4e5, 2e5), 0.1, 1.3) / model.inertia
-    assert net == pytest.approx(acceleration, rel=1e-9)
-
-
 # Other joints ------------------------------------------------------------------------------------
 
 HUNG = Actuator(Muscle(zeta=0.15), [LengthOffset(offset=0.01)], 0.1)
 OTHERS = {
+    'one muscle': single_muscle_joint(Muscle(zeta=0.15), Mass(mass=20.0)),
+    'its effects': single_muscle_joint(Muscle(zeta=0.15), Mass(mass=20.0), EFFECTS),
+    'pair': pair(load=[ViscousFriction(coefficient=0.2), Payload(mass=0.4)]),
     'parallel': Joint((Actuator(), Actuator(Muscle(l0=0.38))), Mass(mass=40.0), Straight()),
     'lever': Joint((HUNG, HUNG), Arm(hanging_at=0.2), Lever()),
     'crank': Joint((HUNG,), Arm(hanging_at=-0.6), Lever(), [ViscousFriction(coefficient=0.1)]),
 }
 
 
+@pytest.mark.parametrize('v', [0.1, -0.1])
 @pytest.mark.parametrize('name', OTHERS)
-def test_the_model_of_every_joint_is_its_rig(name):
+def test_the_model_of_every_joint_is_its_rig_without_memory(name, v):
     joint = OTHERS[name]
     model, rig = ControlModel(joint), Simulation([joint])
     n = len(joint.muscles)
-    p, s, v = (3e5, 2.5e5)[:n], 0.02, 0.1
+    p, s = (3e5, 2.5e5)[:n], 0.02
     rig.reset(p, [s], [v])
     effort, stiffness, acceleration = np.ravel(rig.joint_outputs())
     assert model.effort(p, s) == pytest.approx(effort, rel=1e-9)
     assert model.stiffness(p, s) == pytest.approx(stiffness, rel=1e-9)
     net = (model.pull(p, s, v) - model.weight) / model.inertia
     assert net == pytest.approx(acceleration, rel=1e-9)
+    if not joint.is_revolute:
+        assert model.pull(p, s, v) == pytest.approx(effort - model.damping(p, s, v) * v, rel=1e-12)
     assert model.gravity(s) == pytest.approx(statics.weight(joint, s), rel=1e-12)
     # The stiffness is what the effort loses with the coordinate.
     h = 1e-6

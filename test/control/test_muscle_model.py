@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A muscle at one place against the functions of the force law, each asked separately."""
 
-from math import exp, inf, sqrt
+from math import inf, sqrt
 
 import pytest
 
-from pam_ros.control.muscle_model import MuscleModel, MusclePlace
+from pam_ros.control.muscle_model import MuscleModel
 from pam_ros.effects import LengthOffset, PressureDependentDamping, Slack
 from pam_ros.muscle import law
 from pam_ros.muscle.muscle import Muscle
@@ -75,10 +75,3 @@ def test_below_the_slack_pressure_the_force_law_pushes():
     p = place.slack_pressure()
     assert place.force_law(p) == pytest.approx(0.0, abs=1e-6)
     assert place.force(p - 2e5) == pytest.approx(0.0, abs=1e-6)
-
-
-def test_the_gain_of_a_muscle_at_a_given_contraction():
-    model = MuscleModel(JOINTS['mass'], 0)
-    a1, _, a3, a4, a5, _ = model.a
-    place = MusclePlace(model, 1.0, 0.1 * model.l0)
-    assert place.gain == pytest.approx(a1 * exp(0.1 * a3) + 0.1 * a4 + a5)

@@ -16,17 +16,10 @@ from pam_ros.effects import Payload
 from pam_ros.errors import RangeError
 from pam_ros.rig import statics
 from pam_ros.rig.standard_joints import single_muscle_joint
-from support.closed_loop import step_target
 from support.joint_loop import JOINTS, close_joint
 from support.kinds import EACH_KIND, ONE, PAIR, at_end, rms
 
 DT = 2e-3
-
-
-def test_a_joint_that_turns_has_gains_of_its_own():
-    assert PidGains.for_joint(PAIR.nominal()) == PidGains.revolute() == Pid(PAIR.nominal()).gains
-    assert PidGains.for_joint(single_muscle_joint()) == PidGains()
-    assert PidGains.revolute(integral=0.0).integral == 0.0
 
 
 @pytest.mark.slow
@@ -57,13 +50,6 @@ def test_a_step_is_reached_and_then_it_rests(kind, plant, error, swing):
     else:
         # The static part sets the stiffness, and the law does not change it.
         assert run.stiffness[-1] == pytest.approx(run.wanted[-1], rel=0.01)
-
-
-@pytest.mark.parametrize('goal', [0.045, 0.055, 0.075])
-def test_it_settles_at_all_places(goal):
-    plant = ONE.truth('nominal', noise=0.0)
-    run = ONE.close(Pid(ONE.nominal()), plant, step_target(goal - plant.y), 4.0)
-    assert np.max(np.abs(run.error[run.t > 3.0])) < 20e-6
 
 
 @pytest.mark.slow

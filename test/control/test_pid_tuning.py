@@ -7,7 +7,6 @@ mean lag of the benchmark; a sample and a half of delay. Everything is evaluated
 response, but for the error, which a discrete model of the same loop runs through.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from math import exp, radians
@@ -18,9 +17,8 @@ import pytest
 from scipy.linalg import expm
 
 from pam_ros.control.co_contraction import CoContraction
-from pam_ros.control.model import ControlModel
 from pam_ros.control.pid import PidGains
-from pam_ros.rig.loads import Arm
+from pam_ros.rig.joint import Joint
 from support import closed_loop, pair_loop
 
 DT = 2e-3  # s
@@ -30,21 +28,11 @@ S = 1j * np.geomspace(0.3, 1500.0, 900)
 
 
 @cache
-def single_muscle_joint(place, payload=0.0):
-    """Return inertia, damping, stiffness, and effort per pressure of 20 kg on a muscle."""
-    model = ControlModel(closed_loop.nominal())
-    (muscle,) = model.at(place).muscles
-    mass = model.inertia + payload
-    p = (muscle.pressure_for(mass * model.weight / model.inertia),)
-    return mass, model.damping(p, place, 0.0), model.stiffness(p, place), muscle.gain
-
-
-@cache
-def pair(place, payload=0.0):
-    """Return the same of two muscles and their arm, with the default stiffness."""
-    joint = pair_loop.nominal()
+def numbers(joint, place, payload=0.0):
+    """Return inertia, damping, stiffness, and effort per pressure, with the default stiffness."""
     stiffness = CoContraction().wanted(closed_loop.shared(joint))
-    allocation = closed_loop.shared(replace(joint, load=Arm(mass=joint.load.mass + payload)))
+    load = replace(joint.load, mass=joint.load.mass + payload)
+    allocation = closed_loop.shared(replace(joint, load=load))
     model = allocation.model
     p = allocation.split(model.gravity(place), stiffness, place).pressures
     k = model.stiffness(p, place) + model.gravity_stiffness(place)
@@ -57,7 +45,7 @@ class Bench(NamedTuple):
     """What the gains are for, in m and N, or rad and N m: loads at rest, noise of the sensor."""
 
     gains: PidGains
-    numbers: Callable[..., tuple[float, float, float, float]]
+    joint: Joint
     noise: float
     places: tuple[float, ...]
     payload: float  # kg
@@ -67,9 +55,10 @@ class Bench(NamedTuple):
 ANGLES = (0.0, 0.2, 0.4, 0.6, 0.8)  # rad
 BENCHES = {
     'one muscle': Bench(
-        PidGains(), single_muscle_joint, 20e-6, (0.045, 0.055, 0.065, 0.075, 0.085), 5.0, 50.0
+        *(PidGains(), closed_loop.nominal(), 20e-6),
+        *((0.045, 0.055, 0.065, 0.075, 0.085), 5.0, 50.0),
     ),
-    'pair': Bench(PidGains.revolute(), pair, radians(0.02), ANGLES, 0.3, 2.0),
+    'pair': Bench(PidGains.revolute(), pair_loop.nominal(), radians(0.02), ANGLES, 0.3, 2.0),
 }
 BY_BENCH = pytest.mark.parametrize('bench', BENCHES.values(), ids=BENCHES)
 NAMES = ('proportional', 'integral', 'derivative', 'filter_bandwidth')
@@ -81,7 +70,7 @@ def of(gains):
 
 def peak(bench, gains, place, payload=0.0, lag=0.0, dead=0.0):
     """Return the largest sensitivity: 1 over the distance of the loop from instability."""
-    m, c, k, g = bench.numbers(place, payload)
+    m, c, k, g = numbers(bench.joint, place, payload)
     plant = g / (m * S**2 + c * S + k) / (lag * S + 1.0) * np.exp(-S * (dead + 1.5 * DT))
     kp, ki, kd, a = of(gains)
     law = (kp + ki / S + kd * S) * (a / (S + a)) ** 2
@@ -99,7 +88,7 @@ def noise(bench, gains):
 
 def error_after_upset(bench, gains, place):
     """Return the integral of the absolute error in m s or rad s after the upset, over 3 s."""
-    m, c, k, g = bench.numbers(place)
+    m, c, k, g = numbers(bench.joint, place)
     motion = np.zeros((4, 4))  # of position, velocity, held pressure, held effort
     motion[0, 1], motion[1] = 1.0, (-k / m, -c / m, g / m, 1.0 / m)
     step = expm(motion * DT)

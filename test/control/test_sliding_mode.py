@@ -28,6 +28,7 @@ from support.bench import cart
 from support.joint_loop import JOINTS
 from support.joint_models import pair
 from truth.effects import effect
+from truth.pair import pair_plant
 
 DT = 2e-3
 DEGREE = math.radians(1.0)
@@ -239,27 +240,14 @@ def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
 def test_a_stiffness_that_the_angle_does_not_permit_is_reduced_and_restored():
     law = SlidingMode(pair_loop.nominal(), Gains.revolute())
     most = law.allocation.stiffness_range(0.0)[1]
-    law.start(0.0)
-    law.stiffen(most)
 
     def there_and_back(t):
-        w, x = math.pi, math.pi * (t - 2.0)
-        if t < 2.0:
-            return Reference(0.0)
-        return Reference(0.3 - 0.3 * math.cos(x), 0.3 * w * math.sin(x), 0.3 * w * w * math.cos(x))
+        return 0.0 if t < 2.0 else 0.3 - 0.3 * math.cos(math.pi * (t - 2.0))
 
-    rig = Simulation([law.joint])
-    rig.reset(law.terms.pressures, [0.0], [0.0])
-    found, errors = [], []
-    for n in range(round(4.0 / DT)):
-        now = there_and_back(n * DT)
-        rig.command(law.update(DT, now, float(rig.position[0])))
-        rig.advance(2)
-        found.append(law.terms.stiffness)
-        errors.append(now.position - rig.position[0])
-    assert min(found[1200:]) < 0.95 * most
-    assert found[-1] == pytest.approx(most, rel=0.01)
-    assert np.max(np.abs(errors)) < 0.2 * DEGREE
+    run = pair_loop.close_pair(law, pair_plant('nominal'), there_and_back, 4.0, lambda t: most)
+    assert np.min(run.stiffness[1200:]) < 0.95 * most
+    assert run.stiffness[-1] == pytest.approx(most, rel=0.01)
+    assert np.max(np.abs(run.error)) < 0.2 * DEGREE
 
 
 @pytest.mark.parametrize('law', [SlidingMode, Pid])

@@ -45,17 +45,6 @@ def test_within_the_layer_the_variable_decays_at_the_bandwidth():
     assert s == pytest.approx(first * math.exp(-14.0 * t), rel=2e-3)
 
 
-def test_the_layer_is_never_left_under_the_largest_disturbance():
-    gains = Gains(disturbance_bound=100.0)
-    s, largest = 0.0, 0.0
-    for n in range(40_000):
-        d = math.copysign(gains.disturbance_bound, math.sin(2.0 * math.pi * 0.7 * n * DT))
-        s += DT * (d / MASS - boundary_layer(s, gains.bandwidth, gains.switching_gain(MASS)))
-        largest = max(largest, abs(s))
-    assert largest <= gains.boundary_width(MASS) * (1.0 + 1e-9)
-    assert largest > 0.9 * gains.boundary_width(MASS)
-
-
 def test_a_change_of_bandwidth_leaves_what_the_integral_stands_for():
     surface = Surface()
     surface.integral = 0.03

@@ -37,14 +37,6 @@ def test_a_step_comes_to_rest(kind):
     assert largest(kind, run, 6.0, 2.0) < 0.02
 
 
-@EACH_KIND
-def test_without_it_the_loop_oscillates_for_ever(kind, monkeypatch):
-    law = law_of(kind)
-    monkeypatch.setattr(law._estimates.reduction, 'see', lambda *given: None)
-    run = kind.close(law, kind.truth('dead time', seed=3), kind.step, 8.0)
-    assert largest(kind, run, 6.0, 2.0) > 5.0
-
-
 @pytest.mark.slow
 @EACH_KIND
 def test_a_sine_is_followed(kind):

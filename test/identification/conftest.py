@@ -4,41 +4,33 @@
 
 from concurrent.futures import ThreadPoolExecutor
 
-import numpy as np
 import pytest
 
 from pam_ros.compiled import HAVE_NUMBA
-from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import solve
-from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import fit_finally
-from pam_ros.identification.search.setting import Setting
-from support import bench_truth
-from support.searches import FILL, found_in
+from support import bench_truth, results
+from support.searches import FILL, found_in, retuned_of, setting_of
 from truth import effect
 
 
 @pytest.fixture(scope='package')
-def setting():
+def setting(pool):
     """Return the setting of a rig with a lag, recorded for 20 s."""
     recording = bench_truth.free(effect('pressure_lag'), seed=2, duration=20.0)
-    parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
-    with ThreadPoolExecutor() as pool:
-        yield Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, pool)
+    return setting_of([recording], pool)
 
 
 @pytest.fixture(scope='package')
 def retuned(setting):
     """Return the re-tuned model of that rig."""
-    problem = setting.problem
-    return setting.model((), solve(problem, np.zeros(len(problem.unknowns))))
+    return retuned_of(setting)
 
 
 @pytest.fixture(scope='package')
 def pool():
-    """Return one thread, in which fits run."""
-    with ThreadPoolExecutor(1) as one:
-        yield one
+    """Return the threads in which fits run."""
+    with ThreadPoolExecutor() as threads:
+        yield threads
 
 
 @pytest.fixture(scope='package')
@@ -60,3 +52,21 @@ def found(recording, pool):
 def ends(found):
     """Return its models, fitted in full."""
     return fit_finally(found)
+
+
+@pytest.fixture(scope='session')
+def friction():
+    """Return the result of a free rig with friction that was found."""
+    return results.friction_result()[0]
+
+
+@pytest.fixture(scope='session')
+def clean():
+    """Return the result of a free rig that lacks nothing."""
+    return results.clean_result()[0]
+
+
+@pytest.fixture(scope='session')
+def held():
+    """Return the result of a muscle held at three lengths, with hysteresis found."""
+    return results.held_result()[0]

@@ -17,11 +17,6 @@ from pam_ros.rig.step_limit import longest_step
 from support import results
 
 
-@pytest.fixture(scope='module')
-def friction():
-    return results.friction_result()[0]
-
-
 def test_a_verdict_is_its_text():
     assert Verdict.EFFECT_FOUND == 'effect_found'
     assert (
@@ -65,8 +60,7 @@ def test_effects_that_began_in_a_fitted_recording_act_in_others_from_the_start(f
     assert np.max(np.abs(other.position - without.position)[before]) > 1e-3
 
 
-def test_it_simulates_a_prescribed_length():
-    held = results.held_result()[0]
+def test_it_simulates_a_prescribed_length(held):
     recording = held.recordings[0]
     run = held.simulate(recording)
     assert np.sqrt(np.mean((run.force - recording.force) ** 2)) < 0.1 * np.ptp(recording.force)

@@ -89,12 +89,16 @@ def test_a_leak_against_a_valve_of_limited_flow_is_measured_behind_friction():
     assert found.stages[2].held_error < 1.5 * NOISE
 
 
-@pytest.mark.parametrize('rho', [0.0, 0.9])
-def test_a_model_that_is_right_lacks_nothing(rho):
-    found = identify(bench_truth.nominal(), [bench_truth.free(seed=1, rho=rho)])
+@pytest.mark.parametrize(
+    'recording',
+    [bench_truth.free(seed=1), bench_truth.free(seed=1, rho=0.9), bench_truth.held(seed=2)],
+    ids=['white', 'coloured', 'isometric'],
+)
+def test_a_model_that_is_right_lacks_nothing(recording):
+    found = identify(bench_truth.nominal(), [recording])
     assert found.verdict == 'no_missing_effect'
     assert found.effects == ()
-    assert found.stages[0].held_error < 1.2 * NOISE
+    assert found.stages[0].held_error < 1.2 * (NOISE if recording.kind == 'free' else 2.0)
 
 
 @pytest.mark.parametrize('off', [OFF, [0.0, 0.0, 0.0, 0.0, 0.1, 0.0]], ids=['all', 'a5_by_10_%'])
@@ -253,22 +257,6 @@ def test_an_isometric_muscle(name, there):
     assert (found.quantity, found.unit) == ('force', 'N')
     assert found.noise.sigma == pytest.approx(2.0, rel=0.15)
     assert found.stages[2].held_error < 1.2 * 2.0 < 0.2 * found.stages[1].held_error
-
-
-def test_an_isometric_muscle_that_lacks_nothing():
-    found = identify(bench_truth.nominal(), [bench_truth.held(seed=2)])
-    assert found.verdict == 'no_missing_effect'
-
-
-def test_every_candidate_is_listed_with_a_reason():
-    recording = bench_truth.free(effect('viscous_friction'), seed=8, duration=15.0)
-    found = identify(bench_truth.nominal(), [recording])
-    decisions = {c.decision for c in found.candidates}
-    assert decisions <= {'chosen', 'ambiguous', 'rejected', 'untestable'}
-    assert [c.effect for c in found.candidates if c.decision == 'chosen'] == ['viscous_friction']
-    assert all(c.reason for c in found.candidates)
-    first = [c for c in found.candidates if c.parents == ()]
-    assert len({c.effect for c in first}) == len(first)
 
 
 def test_recordings_of_two_kinds_are_refused():

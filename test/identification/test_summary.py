@@ -9,30 +9,13 @@ import pytest
 
 from pam_ros.identification.result import Estimate
 from pam_ros.identification.summary import details, last_line
-from support import results
-
-
-@pytest.fixture(scope='module')
-def friction():
-    return results.friction_result()[0]
-
-
-@pytest.fixture(scope='module')
-def clean():
-    return results.clean_result()[0]
-
-
-@pytest.fixture(scope='module')
-def held():
-    return results.held_result()[0]
 
 
 def test_line_has_verdict_and_errors(friction):
-    result = friction
-    line = last_line(result)
+    line = last_line(friction)
     assert line.startswith('effect_found (coulomb_friction): held-out error ')
-    assert f'{1e3 * result.stages[0].held_error:.3g} mm nominal' in line
-    assert f'{1e3 * result.stages[2].held_error:.3g}' in line
+    assert f'{1e3 * friction.stages[0].held_error:.3g} mm nominal' in line
+    assert f'{1e3 * friction.stages[2].held_error:.3g}' in line
     assert line.endswith('noise 0.0500 mm')
     assert '\n' not in line
 
@@ -56,19 +39,17 @@ def test_force_is_in_newtons(held):
 
 
 def test_added_effects_are_those_that_were_not_configured(friction):
-    result = friction
-    assert result.added == ('coulomb_friction',)
-    assert replace(result, stages=3 * result.stages[:1]).added == ()
+    assert friction.added == ('coulomb_friction',)
+    assert replace(friction, stages=3 * friction.stages[:1]).added == ()
 
 
 def test_an_effect_in_all_muscles_is_one_though_each_has_its_own_start(friction):
-    result = friction
-    *before, last = result.stages
+    *before, last = friction.stages
     estimate = Estimate(0.1, 0.0, 0.2, '')
     names = ['effects.hysteresis.slip', 'agonist.effects.leak.rate']
     starts = [f'{muscle}.effects.hysteresis.initial' for muscle in ('agonist', 'antagonist')]
     stage = replace(last, parameters=dict.fromkeys([*names, *starts], estimate))
-    assert replace(result, stages=(*before, stage)).added == ('hysteresis', 'agonist.leak')
+    assert replace(friction, stages=(*before, stage)).added == ('hysteresis', 'agonist.leak')
 
 
 # The summary -------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 
+from benchmarks import tracing_late
 from benchmarks._intervals import SAME, intervals, mean_delay, truth_of
 from benchmarks.tracing import (
     TARGETS,
@@ -16,9 +17,10 @@ from benchmarks.tracing import (
     report,
     scores,
 )
+from benchmarks.tracing_late import is_named, is_near, is_wrong
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.result import Estimate
-from truth import FORMS, TruthPlant, blind_trial, effect, stamps
+from truth import FORMS, LATE, TruthPlant, blind_trial, effect, late_trial, stamps
 from truth.excitation import multisine
 
 
@@ -197,3 +199,73 @@ def test_the_finder_is_given_what_a_user_has():
     assert recording.t[0] == 0.0
     np.testing.assert_array_equal(recording.position, trial.recording.position_m)
     np.testing.assert_array_equal(recording.command, trial.recording.pressure_command_pa)
+
+
+# Effects that begin in the middle ----------------------------------------------------------------
+
+
+def late_row(found=(), since=None, **changes):
+    """Return a trial's row: a leak begins at 20 s, and shows at 40 s."""
+    given = {
+        'accepted': [['leak', 'pressure_lag']],
+        'onset': 20.0,
+        'shows': 40.0,
+        'verdict': 'effect_found' if found else 'unexplained_structure',
+        'found': list(found),
+        'alternatives': [()] * len(found),
+        'since': None if since is None else [since - 0.2, since, since + 0.2],
+    }
+    return given | changes
+
+
+@pytest.mark.parametrize(
+    ('since', 'near'),
+    [(None, False), (20.9, True), (19.1, True), (21.1, False), (39.5, True), (30.0, False)],
+)
+def test_a_moment_is_near_the_true_one_or_the_one_at_which_it_shows(since, near):
+    assert is_near(late_row(['leak'], since)) is near
+
+
+@pytest.mark.parametrize(
+    ('found', 'alternatives', 'named', 'wrong'),
+    [
+        (['leak'], [()], True, False),
+        (['pressure_lag'], [()], True, False),
+        (['creep'], [()], False, True),
+        (['creep'], [('leak',)], True, False),
+        (['creep'], [('slack', 'leak')], False, True),
+        (['leak', 'creep'], [(), ()], False, True),
+        ([], [], False, False),
+    ],
+)
+def test_a_name_counts_alone_or_in_a_set_of_two(found, alternatives, named, wrong):
+    one = late_row(found, 20.0, alternatives=alternatives)
+    assert (is_named(one), is_wrong(one)) == (named, wrong)
+
+
+def test_the_figures_are_shares():
+    rows = [
+        late_row(['leak'], 20.1),
+        late_row(['leak'], 20.5),  # its interval misses the moment
+        late_row(['leak']),  # no moment
+        late_row(['creep'], 20.1),
+        late_row([], 40.3),
+    ]
+    figures = dict(zip(tracing_late.TARGETS, (0.6, 0.4, 0.8, 0.5), strict=True))
+    assert tracing_late.scores(rows) == pytest.approx(figures)
+
+
+@pytest.mark.parametrize('kind', LATE)
+def test_until_the_moment_nothing_is_there(kind):
+    late = late_trial(kind, 3)
+    trial, recording = late.trial, late.trial.recording
+    t = recording.t_s - recording.t_s[0]
+    plain = TruthPlant(
+        trial.constants_si, trial.mass, trial.zeta, p0=recording.pressure_command_pa[0]
+    ).run(recording.t_s, recording.pressure_command_pa)
+    moved = np.abs(recording.truth['position_m'] - plain.y)
+    assert 0.19 * t[-1] < late.onset < 0.61 * t[-1]
+    assert moved[t <= late.onset].max() < 1e-12
+    assert moved[t < late.shows].max() <= 3.0 * trial.noise
+    assert moved[t >= late.shows][0] > 3.0 * trial.noise
+    assert late.onset <= late.shows <= t[-1]

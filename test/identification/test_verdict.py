@@ -39,43 +39,33 @@ def with_errors(model, errors):
     return changed
 
 
-def ended(found, best, retuned):
-    """Return a search that ended with these errors in noise floors, the same on both parts."""
+def ended(found, best, retuned, choose=None):
+    """Return a search that ended with these errors in noise floors, of *choose* like of *fit*."""
     noise = found.setting.noise
-    pairs = [(found.best, best), (found.retuned, retuned)]
-    last, first = (with_errors(m, Errors(*3 * (e * noise,))) for m, e in pairs)
+    errors = noise * best, noise * (best if choose is None else choose), noise * best
+    last = with_errors(found.best, Errors(*errors))
+    first = with_errors(found.retuned, Errors(*3 * (retuned * noise,)))
     return Search(found.setting, first, last, found.evaluated)
 
 
-def test_a_claim_must_explain_most_of_what_retuning_left(found):
-    """Above the noise: 10.0 of 33 floors are 0.3 of them, 9.8 are less."""
-    assert explains(ended(found, 9.8, 33.0))
-    assert not explains(ended(found, 10.1, 33.0))
-    # Where that is no more than the noise itself, nothing is to be seen.
-    assert explains(ended(found, 1.4, 1.6))
-
-
-def ended_apart(found, fit, choose):
-    """Return a search that left 33 noise floors of each part, and then these."""
-    one = ended(found, 1.0, 33.0)
-    noise = found.setting.noise
-    errors = replace(one.best.errors, fit=fit * noise, choose=choose * noise)
-    one.best = with_errors(one.best, errors)
-    return one
-
-
-def test_what_is_fitted_must_be_explained(found):
-    assert explains(ended_apart(found, 9.8, 1.0))
-    assert not explains(ended_apart(found, 10.1, 1.0))
-
-
-def test_of_what_is_not_fitted_more_may_be_left_where_the_fit_leaves_less(found):
-    """A load that sticks elsewhere leaves little of *fit*, a sine in a random walk does not."""
-    assert explains(ended_apart(found, 1.4, 19.8))
-    assert not explains(ended_apart(found, 8.0, 19.8))
-    # The mean is at its limit: sqrt(0.151 * 0.6) = 0.301.
-    assert not explains(ended_apart(found, 5.08, 19.8))
-    assert explains(ended_apart(found, 5.0, 19.8))
+@pytest.mark.parametrize(
+    ('fit', 'choose', 'retuned', 'does'),
+    [
+        (9.8, 9.8, 33.0, True),  # above the noise 10.0 of 33 floors are 0.3 of them, 9.8 are less
+        (10.1, 10.1, 33.0, False),
+        (1.4, 1.4, 1.6, True),  # no more than the noise itself: nothing is to be seen
+        (9.8, 1.0, 33.0, True),
+        (10.1, 1.0, 33.0, False),
+        # A load that sticks elsewhere leaves little of *fit*, a sine in a random walk does not.
+        (1.4, 19.8, 33.0, True),
+        (8.0, 19.8, 33.0, False),
+        (5.08, 19.8, 33.0, False),  # the mean is at its limit: sqrt(0.151 * 0.6) = 0.301
+        (5.0, 19.8, 33.0, True),
+    ],
+)
+def test_a_claim_must_explain_most_of_what_retuning_left(found, fit, choose, retuned, does):
+    """Of what is not fitted more may be left where the fit leaves less."""
+    assert explains(ended(found, fit, retuned, choose)) is does
 
 
 def test_without_an_effect_more_than_noise_is_structure_and_constants_may_be_wrong(found):
@@ -137,8 +127,8 @@ def test_what_is_measured_must_change_by_more_than_its_noise():
 
 
 @pytest.mark.parametrize('name', Verdict)
-def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
-    answer = replace(results.friction_result()[0], verdict=name)
+def test_each_verdict_has_its_sentence_and_its_next_experiment(friction, name):
+    answer = replace(friction, verdict=name)
     text = sentence(answer, 'the recordings last 1.0 s; at least 5 s are needed')
     assert text.endswith('.')
     errors = [f'{1e3 * stage.held_error:.3g} mm' for stage in answer.stages]
@@ -176,9 +166,9 @@ def test_a_moment_is_reported_as_precisely_as_it_is_known(since, text):
     assert time_of(since) == text
 
 
-def test_an_effect_that_begins_in_the_middle_has_its_onset():
+def test_an_effect_that_begins_in_the_middle_has_its_onset(friction):
     since = Estimate(12.5, 12.4, 12.6, 's')
-    answer = replace(results.friction_result()[0], since=since)
+    answer = replace(friction, since=since)
     found = sentence(replace(answer, verdict='effect_found'), '')
     assert 'lacks coulomb_friction (or hysteresis) from 12.50 s (12.40 to 12.60 s) on: ' in found
     answer = replace(answer, verdict='unexplained_structure')
@@ -188,9 +178,8 @@ def test_an_effect_that_begins_in_the_middle_has_its_onset():
     assert f'The model with creep and pressure_lag of flexor {until}' in sentence(answer, '', two)
 
 
-def test_an_effect_that_far_constants_could_replace_is_named_with_this_reservation():
-    answer = results.friction_result()[0]
-    answer = replace(answer, effects=(replace(answer.effects[0], or_constants=True),))
+def test_an_effect_that_far_constants_could_replace_is_named_with_this_reservation(friction):
+    answer = replace(friction, effects=(replace(friction.effects[0], or_constants=True),))
     text = sentence(answer, '')
     assert text.startswith('The model lacks coulomb_friction (or hysteresis): the error on held')
     assert 'Instead of coulomb_friction, constants far from the nominal ones explain' in text
@@ -200,30 +189,30 @@ def test_an_effect_that_far_constants_could_replace_is_named_with_this_reservati
     assert '--uncertain a2=10%' in experiment
 
 
-def test_an_error_that_no_effect_explains_is_that_of_a_model_which_is_named():
-    answer = replace(results.friction_result()[0], effects=(), verdict='unexplained_structure')
+def test_an_error_that_no_effect_explains_is_that_of_a_model_which_is_named(friction):
+    answer = replace(friction, effects=(), verdict='unexplained_structure')
     before, now = (f'{1e3 * stage.held_error:.3g} mm' for stage in answer.stages[1:])
     assert f'is {now} with coulomb_friction ({before} re-tuned), and' in sentence(answer, '')
 
 
-def test_a_moment_is_since_the_first_sample_if_the_file_has_another_time_axis():
-    answer = replace(results.friction_result()[0], since=Estimate(12.5, 12.4, 12.6, 's'))
+def test_a_moment_is_since_the_first_sample_if_the_file_has_another_time_axis(friction):
+    answer = replace(friction, since=Estimate(12.5, 12.4, 12.6, 's'))
     late = [replace(one, origin=31.5) for one in answer.recordings]
     assert ' from 12.50 s (12.40 to 12.60 s) on: ' in sentence(answer, '')
     text = sentence(replace(answer, recordings=tuple(late)), '')
     assert ' from 12.50 s (12.40 to 12.60 s) after the first sample on: ' in text
 
 
-def test_no_experiment_is_proposed_for_an_effect_that_raises_the_score():
-    answer = replace(results.friction_result()[0], effects=(), verdict='unexplained_structure')
+def test_no_experiment_is_proposed_for_an_effect_that_raises_the_score(friction):
+    answer = replace(friction, effects=(), verdict='unexplained_structure')
     worse = [replace(c, gain=0.5, score_fall=-1.0) for c in answer.candidates]
     answer = replace(answer, candidates=tuple(worse))
     text = next_experiment(answer, answer.stages[0].model).text
     assert text.startswith('Record slow and fast motion over the whole range')
 
 
-def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
-    answer = replace(results.friction_result()[0], verdict='effect_found')
+def test_rivals_are_distinguished_by_the_experiment_of_the_effect(friction):
+    answer = replace(friction, verdict='effect_found')
     first = replace(answer.effects[0], alternatives=('slack', 'leak'))
     answer = replace(answer, effects=(first, *answer.effects[1:]))
     assert f'{first.name} (or slack or leak)' in sentence(answer, '')
@@ -231,8 +220,8 @@ def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
     assert text.startswith(f'To distinguish between {first.name}, slack, leak, record: ')
 
 
-def test_without_a_named_effect_the_nearest_one_decides_what_to_record():
-    answer = replace(results.friction_result()[0], verdict='unexplained_structure')
+def test_without_a_named_effect_the_nearest_one_decides_what_to_record(friction):
+    answer = replace(friction, verdict='unexplained_structure')
     model = answer.stages[0].model
     best = max(answer.candidates, key=lambda c: c.gain)
     assert next_experiment(answer, model).text.startswith(f'{best.effect} lowers the error most')
@@ -240,16 +229,16 @@ def test_without_a_named_effect_the_nearest_one_decides_what_to_record():
     assert next_experiment(none, model).text.startswith('Record slow and fast motion')
 
 
-def test_an_experiment_that_no_segment_plays_has_no_command():
-    answer = replace(results.friction_result()[0], verdict='effect_found')
+def test_an_experiment_that_no_segment_plays_has_no_command(friction):
+    answer = replace(friction, verdict='effect_found')
     answer = replace(answer, effects=(replace(answer.effects[0], name='end_stop'),))
     text, command = next_experiment(answer, answer.stages[0].model)
     assert text.endswith('. pam_excite has no segment for it.')
     assert command == ''
 
 
-def test_the_experiment_of_a_joint_needs_its_file():
-    answer = replace(results.friction_result()[0], verdict='effect_found')
+def test_the_experiment_of_a_joint_needs_its_file(friction):
+    answer = replace(friction, verdict='effect_found')
     command = next_experiment(answer, antagonistic_joint()).command
     assert command.startswith('pam_excite --ros-args --params-file FILE -p segments:=')
     answer = replace(answer, verdict='insufficient_data')
@@ -261,8 +250,8 @@ THREE = Joint((Actuator(), Actuator(), Actuator()))
 
 
 @pytest.mark.parametrize('model', [THREE, single_muscle_joint(DRIVE, Mass(mount='horizontal'))])
-def test_a_rig_that_is_not_excited_by_its_position_has_no_command(model):
-    answer = replace(results.friction_result()[0], verdict='effect_found')
+def test_a_rig_that_is_not_excited_by_its_position_has_no_command(friction, model):
+    answer = replace(friction, verdict='effect_found')
     text, command = next_experiment(answer, model)
     assert 'pam_excite' not in text
     assert command == ''

@@ -4,7 +4,7 @@
 
 import json
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -71,13 +71,7 @@ def test_numbers_are_those_of_the_result(friction):
     assert report['verdict'] == 'effect_found'
     (effect,) = report['effects']
     assert effect['name'] == 'coulomb_friction'
-    assert effect['parameters']['level'] == {
-        'value': 14.02,
-        'low': 13.9,
-        'high': 14.14,
-        'unit': 'N',
-        'at_bound': False,
-    }
+    assert effect['parameters']['level'] == asdict(Estimate(14.02, 13.9, 14.14, 'N'))
     assert effect['alternatives'] == ['hysteresis']
     error = report['error']
     assert (error['quantity'], error['unit'], error['noise_floor']) == ('position', 'm', 5e-5)
@@ -95,15 +89,10 @@ def test_numbers_are_those_of_the_result(friction):
 def test_the_moment_is_there_where_something_begins(friction, validate):
     result, source, runs = friction
     assert report_of(friction)['since'] is None
-    late = replace(result, since=Estimate(12.5, 12.4, 12.6, 's'))
+    since = Estimate(12.5, 12.4, 12.6, 's')
+    late = replace(result, since=since)
     report = json.loads(to_json(numbers(late, runs, source)))
-    assert report['since'] == {
-        'value': 12.5,
-        'low': 12.4,
-        'high': 12.6,
-        'unit': 's',
-        'at_bound': False,
-    }
+    assert report['since'] == asdict(since)
     assert validate(report) == []
 
 

@@ -67,12 +67,6 @@ def test_autocorrelation_of_ar1_noise_is_its_power_law():
     assert band == pytest.approx(1.96 / np.sqrt(120_000))
 
 
-def test_white_noise_stays_in_the_band_95_percent_of_lags():
-    rng = np.random.default_rng(3)
-    found, band = diagnostics.autocorrelation([rng.standard_normal(20_000)], 1000)
-    assert np.mean(np.abs(found[1:]) < band) == pytest.approx(0.95, abs=0.02)
-
-
 def test_cross_correlation_finds_the_lag_and_the_sign():
     rng = np.random.default_rng(4)
     u = rng.standard_normal(5000)
@@ -104,13 +98,6 @@ def test_spectrum_of_white_and_coloured_noise_is_the_formula():
         assert density[inner] == pytest.approx(expected[inner], rel=0.2)
         # Parseval: the density's power is the variance.
         assert np.sum(density**2) * f[0] == pytest.approx(4.0, rel=0.05)
-
-
-def test_spectrum_shows_a_line_of_the_right_height():
-    t = np.arange(8000) / 200.0
-    f, density = diagnostics.spectrum([0.3 * np.sin(2 * np.pi * 5.0 * t)], 0.005, 8.0)
-    assert f[np.argmax(density)] == pytest.approx(5.0, abs=0.13)
-    assert np.sqrt(np.sum(density**2) * f[0]) == pytest.approx(0.3 / np.sqrt(2.0), rel=0.02)
 
 
 def test_coherence_is_high_where_related_and_below_its_level_elsewhere():

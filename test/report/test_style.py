@@ -30,7 +30,6 @@ def test_envelope_keeps_every_extreme_and_the_order_of_time():
 
 def test_envelope_leaves_short_curves_alone():
     t = np.arange(100.0)
-    assert style.envelope(t, t**2, 50)[1] is not None
     assert np.array_equal(style.envelope(t, t**2, 50)[1], t**2)
 
 
@@ -49,6 +48,7 @@ def test_svg_is_one_element_with_ids_of_its_own():
         assert root.tag.endswith('svg')
         assert root.get('viewBox') == f'0 0 {style.NARROW} 258'
         assert root.get('aria-label') == 'a line'
+        assert '>lag, s</text>' in drawn(name)
         ids.append({e.get('id') for e in root.iter() if e.get('id')})
         assert all(i.startswith(f'{name}-') for i in ids[-1])
         text = ET.tostring(root, 'unicode')
@@ -70,11 +70,6 @@ def test_figures_do_not_depend_on_what_the_user_has_set():
     with mpl.rc_context(own):
         assert drawn('a') == plain
         assert mpl.rcParams['lines.marker'] == 'o'
-
-
-def test_svg_is_the_same_each_time_and_has_its_text_as_text():
-    assert drawn('a') == drawn('a')
-    assert '>lag, s</text>' in drawn('a')
 
 
 @pytest.mark.parametrize(('low', 'high'), [(0.0, 0.0), (0.31, 0.42), (1e-6, 3e-2), (2.0, 900.0)])

@@ -31,7 +31,7 @@ def recording_of(true, name='truth.csv'):
     u = true.pressure_command_pa
     if true.held:
         return Recording(name, t, t, u, true.position_m, None, true.force_n, None, 'held')
-    return Recording(name, t, t, u, true.position_m, None, None, None, 'free')
+    return Recording(name, t, t, u, true.position_m)
 
 
 def free(*effects, name='truth.csv', **settings):

@@ -26,18 +26,23 @@ LAG_WITH_ZONE = [PressureLag(fill=0.050, vent=0.070, dead_zone=6e3)]
 
 @dataclass
 class Run:
-    """What a run left: times s, target and true position m, pressure commanded Pa, terms."""
+    """What a run left: times s, target and true coordinate m or rad, commands Pa, terms.
+
+    Of a pair also the true ``stiffness`` in N m/rad, and that which the law ``wanted``.
+    """
 
     t: np.ndarray
     target: np.ndarray
-    position: np.ndarray
+    coordinate: np.ndarray
     pressure: np.ndarray
     terms: dict[str, np.ndarray] = field(default_factory=dict)
+    stiffness: np.ndarray | None = None
+    wanted: np.ndarray | None = None
 
     @property
     def error(self):
-        """Target less true position, m."""
-        return self.target - self.position
+        """Target less true coordinate."""
+        return self.target - self.coordinate
 
     def last(self, seconds):
         """Return which samples are in the last *seconds*."""

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws in simulated time on the package's own rig, for joints of every kind."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from pam_ros.control.reference.shaping import Shape, Shaper
@@ -11,6 +9,7 @@ from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
+from support.closed_loop import Run
 
 HUNG = Actuator(contraction=0.1)
 JOINTS = {
@@ -19,25 +18,6 @@ JOINTS = {
     'crank': Joint((HUNG,), Arm(hanging_at=-0.6), Lever()),
     'four': Joint((HUNG,) * 4, Arm(mass=2.0), Pulley()),
 }
-
-
-@dataclass
-class JointRun:
-    """What a run left: times s, targets, coordinates, commands Pa (muscles, n)."""
-
-    t: np.ndarray
-    target: np.ndarray
-    coordinate: np.ndarray
-    pressure: np.ndarray
-
-    @property
-    def error(self):
-        """Target less coordinate, m or rad."""
-        return self.target - self.coordinate
-
-    def last(self, seconds):
-        """Return which samples are in the last *seconds*."""
-        return self.t > self.t[-1] - seconds
 
 
 def close_joint(law, joint, target, duration, begin=None, noise=0.0, seed=0, rate=500.0):
@@ -66,4 +46,4 @@ def close_joint(law, joint, target, duration, begin=None, noise=0.0, seed=0, rat
         shaper.follow(dt)
         rows[n] = t + dt, goal, rig.position[0], *pressures
     t, goal, found, *commands = rows.T
-    return JointRun(t, goal, found, np.array(commands))
+    return Run(t, goal, found, np.array(commands))

@@ -2,43 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """The law for an antagonistic pair in simulated time on the truth plant, without ROS."""
 
-from dataclasses import dataclass, field
-
 import numpy as np
 
 from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm
 from pam_ros.rig.transmissions import Pulley
-from support.closed_loop import LAG, LAG_WITH_ZONE, STREAM, ZONE
+from support.closed_loop import LAG, LAG_WITH_ZONE, STREAM, ZONE, Run
 
-__all__ = ['LAG', 'LAG_WITH_ZONE', 'ZONE', 'PairRun', 'close_pair', 'nominal']
+__all__ = ['LAG', 'LAG_WITH_ZONE', 'ZONE', 'close_pair', 'nominal']
 TERMS = ('error', 'surface', 'switching', 'observer', 'learned', 'bandwidth')
-
-
-@dataclass
-class PairRun:
-    """What a run left: s, target and true angle rad, true stiffness N m/rad, commands Pa (2, n).
-
-    ``wanted`` is the stiffness that the law aimed at, ``terms`` are some of its terms.
-    """
-
-    t: np.ndarray
-    target: np.ndarray
-    angle: np.ndarray
-    stiffness: np.ndarray
-    wanted: np.ndarray
-    pressure: np.ndarray
-    terms: dict[str, np.ndarray] = field(default_factory=dict)
-
-    @property
-    def error(self):
-        """Target less true angle, rad."""
-        return self.target - self.angle
-
-    def last(self, seconds):
-        """Return which samples are in the last *seconds*."""
-        return self.t > self.t[-1] - seconds
 
 
 def nominal(effects=(), load=()):
@@ -48,16 +21,7 @@ def nominal(effects=(), load=()):
 
 
 def close_pair(
-    law,
-    plant,
-    target,
-    duration,
-    stiffness=None,
-    *,
-    rate=500.0,
-    begin=0.0,
-    shape=None,
-    push=None,
+    law, plant, target, duration, stiffness=None, *, rate=500.0, begin=0.0, shape=None, push=None
 ):
     """Run *law* on *plant* along *target* (s -> rad), with *stiffness* (s -> N m/rad).
 
@@ -89,4 +53,4 @@ def close_pair(
         terms[n] = [getattr(law.terms, name) for name in TERMS]
     t, goal, angle, found, wish, *commands = rows.T
     named = dict(zip(TERMS, terms.T, strict=True))
-    return PairRun(t, goal, angle, found, wish, np.array(commands), named)
+    return Run(t, goal, angle, np.array(commands), named, found, wish)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A loop whose law writes down what it is called with."""
 
-from pam_ros.control.loop import Loop
+from pam_ros.control.loop import Loop, Measurement
 from pam_ros.control.plausibility import MotionBounds, Plausibility
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
@@ -36,3 +36,9 @@ class Recorder:
 def recorded_loop():
     """Return the loop, whose target may be between -1 and 1 m."""
     return Loop(Recorder(), ReferenceSource(Shape(), (-1.0, 1.0)), PERIOD, Plausibility(BOUNDS))
+
+
+def seen(loop, now, position=0.05):
+    """Give *loop* a measurement in m at the time *now* in s; return what it commands then."""
+    loop.see(Measurement(now, position))
+    return loop.tick(now)

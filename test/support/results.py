@@ -45,7 +45,7 @@ def free_recording(model, seconds=SECONDS, rate=200.0, seed=0, name='bench.csv',
     t, command = commands(seconds, rate, seed)
     y = simulate(model, t, command).position
     y = y + NOISE * np.random.default_rng(seed + 1).standard_normal(t.size)
-    whole = Recording(name, t, t, command, y, None, None, None, 'free', digest=64 * 'a')
+    whole = Recording(name, t, t, command, y, digest=64 * 'a')
     if not gap:
         return whole
     keep = (t < 0.4 * seconds) | (t > 0.42 * seconds)
@@ -77,19 +77,10 @@ def rms(e):
 def stage(name, model, segments, test, parameters):
     """Return the stage of a model that starts where each segment was measured to start."""
 
-    def run(segment):
-        if segment.kind == 'free':
-            return simulate(
-                model,
-                segment.t,
-                segment.drive,
-                segment.drive_t,
-                position=segment.y0,
-                velocity=segment.v0,
-            ).position
-        return simulate_held(
-            model, segment.t, segment.pressure, segment.position, segment.velocity
-        ).force
+    def run(s):
+        if s.kind == 'free':
+            return simulate(model, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0).position
+        return simulate_held(model, s.t, s.pressure, s.position, s.velocity).force
 
     simulated, tested = (tuple(run(s) for s in part) for part in (segments, test))
     e = np.concatenate([p - s.target for p, s in zip(simulated, segments, strict=True)])
@@ -97,18 +88,8 @@ def stage(name, model, segments, test, parameters):
     held = e[~fit]
     if test:
         held = np.concatenate([p - s.target for p, s in zip(tested, test, strict=True)])
-    held_error = float(np.sqrt(np.mean(held**2))) if held.size else float('nan')
-    return Stage(
-        name,
-        model,
-        '',
-        parameters,
-        float(np.sqrt(np.mean(e[fit] ** 2))),
-        held_error,
-        simulated,
-        tested,
-        FitLog(FitStatus.CONVERGED, 12, 140),
-    )
+    errors, log = (rms(e[fit]), rms(held)), FitLog(FitStatus.CONVERGED, 12, 140)
+    return Stage(name, model, '', parameters, *errors, simulated, tested, log)
 
 
 def estimate(value, share, unit, at_bound=False):
@@ -133,21 +114,8 @@ def candidates(chosen, ambiguous=(), untestable=()):
         name, scale = effect.parameters()[0].name, effect.parameters()[0].scale
         values = {name: estimate(scale, 0.3, effect.parameters()[0].unit)}
         error = 1e-3 * (1.0 - gain)
-        found.append(
-            Candidate(
-                effect.name,
-                (),
-                error,
-                1.02 * error,
-                500.0 * gain,
-                gain,
-                p,
-                gain > 0.5,
-                values,
-                decision,
-                reason,
-            )
-        )
+        size = error, 1.02 * error, 500.0 * gain, gain, p, gain > 0.5
+        found.append(Candidate(effect.name, (), *size, values, decision, reason))
     return tuple(found)
 
 
@@ -158,17 +126,12 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
         segments = [replace(s, fit=s.t < s.t[0] + 0.75 * (s.t[-1] - s.t[0])) for s in segments]
     test_segments = segments_of(test) if test else []
     quantity = quantity or segments[0].quantity
-    muscle = nominal.muscle
-    known = {
-        'a1': estimate(muscle.a1, 0.0, 'N/bar'),
-        'a5': estimate(muscle.a5, 0.0, 'N/bar'),
-        'zeta': estimate(muscle.zeta, 0.0, ''),
-    }
+    units = {'a1': 'N/bar', 'a5': 'N/bar', 'zeta': ''}
+    known = {k: estimate(getattr(nominal.muscle, k), 0.0, unit) for k, unit in units.items()}
     moved, final = (
         {
-            'a1': estimate(one.muscle.a1, 0.04, 'N/bar'),
-            'a5': estimate(one.muscle.a5, 0.003, 'N/bar'),
-            'zeta': estimate(one.muscle.zeta, 0.2, '', at_bound=True),
+            k: estimate(getattr(one.muscle, k), share, units[k], at_bound=k == 'zeta')
+            for k, share in {'a1': 0.04, 'a5': 0.003, 'zeta': 0.2}.items()
         }
         for one in (retuned, augmented)
     )
@@ -179,6 +142,7 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
     }
     chosen = [finding.name for finding in findings]
     others = [name for finding in findings for name in finding.alternatives]
+    hidden = ('payload', 'end_stop') if quantity == 'force' else ()
     return Identification(
         verdict=Verdict(verdict),
         quantity=quantity,
@@ -190,9 +154,7 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
             stage('augmented', augmented, segments, test_segments, {**final, **added}),
         ),
         effects=tuple(findings),
-        candidates=candidates(
-            chosen, others, ('payload', 'end_stop') if quantity == 'force' else ()
-        ),
+        candidates=candidates(chosen, others, hidden),
         structure=Structure(0.71, 0.0, 0.96),
         segments=tuple(segments),
         test=tuple(test_segments),
@@ -200,9 +162,7 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
         test_recordings=tuple(test),
         since=None,
         uncertain={'mass': '2%'},
-        sentence='The configured model lacks Coulomb friction.'
-        if findings
-        else 'Nothing is missing.',
+        sentence='The configured model lacks something.' if findings else 'Nothing is missing.',
         next_experiment='slow triangles with minor loops: the force reverses within micrometres',
         next_command="pam_excite --ros-args -p segments:='[slow_triangle, fast_triangle]'",
         warnings=('the position covers 11 % of the stroke',),
@@ -248,12 +208,7 @@ def held_result():
     recordings = [
         held_recording(truth, kappa, seed=k) for k, kappa in enumerate((0.02, 0.1, 0.18))
     ]
-    found = Finding(
-        'hysteresis',
-        {'amplitude': estimate(30.0, 0.1, 'N')},
-        (),
-        'loops',
-    )
+    found = Finding('hysteresis', {'amplitude': estimate(30.0, 0.1, 'N')}, (), 'loops')
     result = result_of(recordings, [], rig(), rig(a5=302.0), truth, 'effect_found', (found,))
     return result, source_of(rig(), recordings, [])
 
@@ -290,11 +245,6 @@ def crowded_result():
 
 def source_of(nominal, recordings, test):
     """Return the provenance of a result that was made by hand."""
-    return provenance(
-        NominalJoint(nominal, LOAD, ('muscle',), 'muscle'),
-        PRESET,
-        ('mass=20',),
-        recordings,
-        test,
-        'pam_identify bench.csv --out report',
-    )
+    joint = NominalJoint(nominal, LOAD, ('muscle',), 'muscle')
+    command = 'pam_identify bench.csv --out report'
+    return provenance(joint, PRESET, ('mass=20',), recordings, test, command)

@@ -8,32 +8,21 @@ from scipy.optimize import lsq_linear
 
 from pam_ros.control.learning.regression import Regression
 
+ALIKE = np.array([[1.0, 0.9, 0.0], [0.9, 1.0, 0.0], [0.0, 0.0, 1.0]])
 
-def test_it_is_the_regularised_batch_solution():
+
+@pytest.mark.parametrize(('samples', 'correlation'), [(200, None), (5, ALIKE)])
+def test_it_is_the_batch_solution_with_the_prior(samples, correlation):
     rng = np.random.default_rng(1)
     spread, noise = np.array([2.0, 0.5, 5.0]), 0.3
     far = np.full(3, 1e9)
-    found = Regression(spread, -far, far, noise)
-    phi = rng.normal(size=(200, 3))
-    y = phi @ [1.0, -0.3, 4.0] + rng.normal(size=200) * noise**0.5
-    for row, value in zip(phi, y, strict=True):
-        found.update(row, value - row @ found.theta, 0.0)
-    information = phi.T @ phi / noise + np.diag(spread**-2.0)
-    np.testing.assert_allclose(found.theta, np.linalg.solve(information, phi.T @ y / noise))
-    np.testing.assert_allclose(found.covariance, np.linalg.inv(information), atol=1e-12)
-
-
-def test_with_a_correlated_prior_it_is_the_batch_solution_with_that_prior():
-    rng = np.random.default_rng(6)
-    spread, noise, far = np.array([2.0, 0.5, 5.0]), 0.3, np.full(3, 1e9)
-    correlation = np.array([[1.0, 0.9, 0.0], [0.9, 1.0, 0.0], [0.0, 0.0, 1.0]])
     found = Regression(spread, -far, far, noise, correlation)
-    phi = rng.normal(size=(5, 3))
-    y = phi @ [1.0, -0.3, 4.0] + rng.normal(size=5) * noise**0.5
+    phi = rng.normal(size=(samples, 3))
+    y = phi @ [1.0, -0.3, 4.0] + rng.normal(size=samples) * noise**0.5
     for row, value in zip(phi, y, strict=True):
         found.update(row, value - row @ found.theta, 0.0)
-    prior = np.linalg.inv(correlation * np.outer(spread, spread))
-    information = phi.T @ phi / noise + prior
+    prior = np.eye(3) if correlation is None else correlation
+    information = phi.T @ phi / noise + np.linalg.inv(prior * np.outer(spread, spread))
     np.testing.assert_allclose(found.theta, np.linalg.solve(information, phi.T @ y / noise))
     np.testing.assert_allclose(found.covariance, np.linalg.inv(information), atol=1e-12)
 
@@ -89,30 +78,6 @@ def test_within_bounds_it_is_the_regularised_batch_solution_within_bounds(seed):
     best = lsq_linear(rows, np.append(y / noise**0.5, np.zeros(4)), (low, high), tol=1e-14)
     assert best.active_mask.any()
     np.testing.assert_allclose(found.theta, best.x, atol=0.01)
-
-
-def test_bounds_of_some_parameters_do_not_spoil_the_prediction():
-    """The first parameter would be negative; those that are like it take its part."""
-    rng = np.random.default_rng(4)
-    low, high = np.zeros(3), np.full(3, 60.0)
-    found = Regression(np.full(3, 20.0), low, high, 1.0)
-    ramp = np.linspace(0.0, 1.0, 200)
-    phi = np.stack([ramp, ramp**1.1, ramp**1.2], axis=1)
-    errors = []
-    for row, noise in zip(phi, rng.normal(size=200), strict=True):
-        errors.append(float(row @ found.theta))  # nothing but noise is measured
-        found.update(row, noise - errors[-1], 1e-4)
-    assert max(map(abs, errors)) < 2.0
-
-
-def test_what_is_forgotten_can_be_learned_again():
-    found = Regression(np.array([10.0]), np.array([-99.0]), np.array([99.0]), 1.0)
-    for _ in range(2000):
-        found.update(np.array([1.0]), 3.0 - found.theta[0], 1e-4)
-    for _ in range(400):
-        found.update(np.array([1.0]), -3.0 - found.theta[0], 1e-4)
-    assert found.theta[0] == pytest.approx(-3.0, abs=0.05)
-    assert found.covariance[0, 0] <= 100.0
 
 
 def test_one_parameter_is_forgotten_and_the_others_are_kept():

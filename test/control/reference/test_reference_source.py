@@ -217,3 +217,117 @@ def test_each_target_is_counted():
     with pytest.raises(RangeError):
         source.set_target(0.5)
     assert source.targets == seen[-1]
+
+
+# Set-points and streams, and the reach that limits them ------------------------------------------
+
+REACH, REST = (0.0, 0.09), 0.06
+
+
+@pytest.fixture
+def source():
+    source = ReferenceSource(Shape(), REACH)
+    source.start(REST)
+    positions(source, 1.0)
+    return source
+
+
+def positions(source, seconds):
+    return np.array([source.follow(DT).position for _ in range(round(seconds / DT))])
+
+
+@pytest.mark.parametrize(
+    ('first', 'gap', 'goal', 'most'),
+    [
+        *((0.07, gap, 0.072, 0.073) for gap in (0.15, 0.3, 0.6, 2.5)),
+        *((0.07, gap, 0.085, 0.086) for gap in (0.15, 0.3, 0.6, 2.5)),
+        *((0.08, gap, 0.089, REACH[1]) for gap in (0.02, 0.05, 0.09)),  # which seem a motion
+    ],
+)
+def test_set_points_one_after_the_other_lead_beyond_neither_goal_nor_reach(
+    source, first, gap, goal, most
+):
+    source.set_target(first)
+    positions(source, gap)
+    source.set_target(goal)
+    way = positions(source, 4.0)
+    assert np.max(way) <= most
+    assert way[-1] == pytest.approx(goal, abs=1e-9)
+
+
+def test_a_load_that_rests_out_of_reach_is_held_there(source):
+    source.start(-0.01)
+    np.testing.assert_array_equal(positions(source, 0.1), -0.01)
+
+
+# After another source, whose reach may differ ----------------------------------------------------
+
+LOW = (0.0, 0.03)  # m, the reach with less pressure
+
+
+def successor(before, reach, position):
+    source = ReferenceSource(Shape(), reach)
+    return source, source.succeed(before, position)
+
+
+def test_a_reference_within_both_reaches_stays_where_it_is(source):
+    after, sentence = successor(source, (0.01, 0.07), 0.055)
+    assert sentence == ''
+    np.testing.assert_array_equal(positions(after, 0.1), REST)
+
+
+def test_a_reference_out_of_the_new_reach_goes_from_the_load_into_the_reach(source):
+    after, sentence = successor(source, LOW, 0.058)
+    assert sentence == (
+        'reference 0.06 m is out of reach with the changed parameters: this rig can hold its load '
+        'at 0 to 0.03 m; the reference starts at the position of the load, 0.058 m'
+    )
+    way = positions(after, 2.0)
+    assert way[0] == pytest.approx(0.058, abs=1e-6)
+    assert np.max(np.abs(np.diff(way))) <= 1.001 * Shape().max_velocity * DT
+    assert way[-1] == LOW[1]
+    # From there it continues as within any reach.
+    again, sentence = successor(after, REACH, 0.0295)
+    assert sentence == ''
+    np.testing.assert_array_equal(positions(again, 0.1), LOW[1])
+
+
+def test_where_the_load_is_within_the_new_reach_it_is_held(source):
+    after, sentence = successor(source, LOW, 0.02)
+    assert 'starts at the position of the load, 0.02 m' in sentence
+    np.testing.assert_array_equal(positions(after, 0.1), 0.02)
+
+
+def test_a_trajectory_out_of_the_new_reach_ends(source):
+    source.start(0.02)
+    source.play(Points.of([Point(2.0, REST)]))
+    positions(source, 1.9)
+    after, sentence = successor(source, LOW, 0.05)
+    assert 'out of reach' in sentence
+    assert not after.is_on_trajectory
+    assert positions(after, 2.0)[-1] == LOW[1]
+
+
+def test_a_reference_on_its_way_into_the_reach_starts_at_the_load_if_the_reach_grows():
+    before = ReferenceSource(Shape(), LOW)
+    before.start(REST)
+    before.set_target(0.03)
+    assert positions(before, 0.1)[-1] > LOW[1]
+    after, sentence = successor(before, REACH, 0.04)
+    assert sentence == ''
+    np.testing.assert_array_equal(positions(after, 0.1), 0.04)
+
+
+def test_a_load_that_rests_out_of_reach_stays_there_with_another_reach(source):
+    source.start(-0.01)
+    after, sentence = successor(source, LOW, -0.0101)
+    assert sentence == ''
+    np.testing.assert_array_equal(positions(after, 1.0), -0.0101)
+
+
+def test_a_reference_that_leaves_such_a_place_goes_into_the_new_reach(source):
+    source.start(-0.01)
+    source.set_target(0.02)
+    positions(source, 0.05)
+    after, _ = successor(source, LOW, -0.0099)
+    assert positions(after, 1.0)[-1] == LOW[0]

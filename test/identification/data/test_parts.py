@@ -28,12 +28,6 @@ def test_every_sample_is_in_one_part_in_the_order_of_time():
     np.testing.assert_allclose(shares, [0.55, 0.20, 0.25], atol=2.0 / FREE.t.size)
 
 
-def test_nothing_judges_where_other_recordings_do():
-    (part,) = parts_of([FREE], 0.7, 1.0)
-    assert counts(part)[2] == 0
-    assert part.choose[-1]
-
-
 def test_each_recording_is_divided_by_itself():
     later = replace(FREE, name='b', t=FREE.t + 100.0, command_t=FREE.command_t + 100.0)
     first, second = parts_of([FREE, later], 0.5, 0.75)

@@ -20,7 +20,7 @@ COMMANDS = np.array([0.0, 5.0, 45.0]), np.array([2e5, 3e5, 2e5])
 
 def part(position, stamps=COMMANDS[0], command=COMMANDS[1], t=T):
     noise = np.random.default_rng(1).normal(0.0, NOISE, t.size)
-    recording = Recording('r', t, stamps, command, position + noise, None, None, None, 'free')
+    recording = Recording('r', t, stamps, command, position + noise)
     (found,) = parts_of([recording], 0.55, 0.75)
     return found
 

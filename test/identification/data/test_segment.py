@@ -21,7 +21,7 @@ def free(seconds=40.0, name='free'):
     stamps[0] = 0.0
     y = 0.01 + 0.02 * t - 0.0003 * t**2
     command = 1e5 + 1e4 * np.arange(stamps.size)
-    return Recording(name, t, stamps, command, y, None, None, None, 'free')
+    return Recording(name, t, stamps, command, y)
 
 
 def held(**changes):
@@ -111,25 +111,15 @@ def test_levels_of_a_pressure_are_not_the_noise_of_a_resolution(short):
         np.testing.assert_array_equal(segment.pressure, pressure)
 
 
-def test_noise_of_a_length_that_moves_hardly_reaches_it():
-    truth = held().position
+def test_noise_of_a_length_that_moves_hardly_reaches_it_and_its_velocity():
+    true = held().position
     noise = 1e-5 * np.random.default_rng(0).standard_normal(2000)
-    (segment,) = segments_of([held(position=truth + noise)])
-    assert np.std(segment.position - truth) < 0.5 * np.std(noise)
-
-
-def test_a_constant_length_has_no_velocity():
-    position = np.full(2000, 0.02)
-    (segment,) = segments_of([held(position=position)])
-    assert not segment.velocity.any()
-
-
-def test_noise_of_a_length_hardly_reaches_its_velocity():
-    noisy = held().position + 1e-5 * np.random.default_rng(0).standard_normal(2000)
-    (segment,) = segments_of([held(position=noisy)])
-    truth = 0.004 * 2 * np.pi * 0.2 * np.cos(2 * np.pi * 0.2 * segment.t)
-    plain = np.gradient(noisy, segment.t) - truth
-    assert np.std(segment.velocity - truth) < 0.3 * np.std(plain)
+    (segment,) = segments_of([held(position=true + noise)])
+    assert np.std(segment.position - true) < 0.5 * np.std(noise)
+    speed = 0.004 * 2 * np.pi * 0.2 * np.cos(2 * np.pi * 0.2 * segment.t)
+    plain = np.gradient(true + noise, segment.t) - speed
+    assert np.std(segment.velocity - speed) < 0.3 * np.std(plain)
+    assert not segments_of([held(position=np.full(2000, 0.02))])[0].velocity.any()
 
 
 def test_a_held_run_without_measured_pressure_takes_the_command():

@@ -29,7 +29,7 @@ STEP = 6e-3
 
 def recorded(t, stamps, command, position=None):
     position = np.zeros_like(t) if position is None else position
-    recording = Recording('r', t, stamps, command, position, None, None, None, 'free')
+    recording = Recording('r', t, stamps, command, position)
     (segment,) = segments_of([recording])
     return segment
 
@@ -39,20 +39,13 @@ def wave(stamps):
     return 3e5 + 5e4 * np.sin(2 * np.pi * 0.2 * stamps) + 1e3 * np.sin(2 * np.pi * 1.0 * stamps)
 
 
-def impulse(stamps, values, start, end):
-    """Return the integral of a held command from start to end, piece by piece."""
+def moments(stamps, values, start, end):
+    """Return the integral of a held command from start to end, and its moment about the middle."""
     inside = stamps[(stamps > start) & (stamps < end)]
     edges = np.concatenate([[start], inside, [end]])
-    held = [values[max(np.flatnonzero(stamps <= e)[-1:], default=0)] for e in edges[:-1]]
-    return float(np.sum(np.array(held) * np.diff(edges)))
-
-
-def moment(stamps, values, start, end):
-    """Return the moment of a held command about the middle between start and end."""
-    inside = stamps[(stamps > start) & (stamps < end)]
-    edges = np.concatenate([[start], inside, [end]])
-    held = [values[max(np.flatnonzero(stamps <= e)[-1:], default=0)] for e in edges[:-1]]
-    return float(np.sum(np.array(held) * np.diff((edges - 0.5 * (start + end)) ** 2)) / 2.0)
+    held = np.array([values[max(np.flatnonzero(stamps <= e)[-1:], default=0)] for e in edges[:-1]])
+    squares = (edges - 0.5 * (start + end)) ** 2
+    return held @ np.diff(edges), held @ np.diff(squares) / 2.0
 
 
 def uneven(rng, n):
@@ -73,9 +66,8 @@ def test_impulse_over_every_stride_is_kept(kind, seed):
     }[kind]
     thin = thinned(recorded(t, stamps, command), STEP)
     spans = list(zip(thin.t[:-1], thin.t[1:], strict=True))
-    full = np.array([impulse(stamps, command, *span) for span in spans])
-    kept = np.array([impulse(thin.drive_t, thin.drive[:, 0], *span) for span in spans])
-    arms = np.array([moment(stamps, command, *span) for span in spans])
+    full, arms = np.array([moments(stamps, command, *span) for span in spans]).T
+    kept, _ = np.array([moments(thin.drive_t, thin.drive[:, 0], *span) for span in spans]).T
     # What a held mean cannot have is given to the adjacent strides, and no more than that.
     lent = np.abs(np.concatenate([[0.0], arms])[:-1]) + np.abs(np.append(arms[1:], 0.0))
     assert np.all(np.abs(kept - full) <= 0.5 * lent / STEP + 1e-9 * full)

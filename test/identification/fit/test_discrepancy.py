@@ -5,7 +5,6 @@
 import numpy as np
 import pytest
 from scipy.linalg import cho_factor, cho_solve
-from scipy.signal import lfilter
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance
 
@@ -59,25 +58,3 @@ def test_the_likelihood_is_that_of_the_dense_covariance(process, t):
     square = float(y @ cho_solve(factor, y))
     log_det = 2.0 * np.sum(np.log(np.diag(factor[0])))
     assert found == pytest.approx(t.size * np.log(square / t.size) + log_det, rel=1e-9, abs=1e-9)
-
-
-def test_a_jacobian_is_whitened_column_by_column():
-    whitening = Discrepancy(1.5, 0.2).whitening(UNEVEN)
-    columns = np.random.default_rng(5).normal(size=(UNEVEN.size, 3))
-    found = whitening(columns)
-    for k in range(3):
-        np.testing.assert_array_equal(found[:, k], whitening(columns[:, k]))
-
-
-def test_even_samples_are_an_arma_process_of_first_order_each():
-    """Its filter in the long run is (1 - phi/z)/(1 - theta/z), with theta of a quadratic."""
-    size, time, dt = 0.7, 0.5, 0.01
-    phi = np.exp(-dt / time)
-    ratio = size**2 * (1.0 - phi**2)  # variance of what drives the process, over that of the noise
-    b = (ratio + 1.0 + phi**2) / phi
-    theta = (b - np.sqrt(b * b - 4.0)) / 2.0
-    t = np.arange(5000) * dt
-    y = np.random.default_rng(6).normal(size=t.size)
-    late = Discrepancy(size, time).whitening(t)(y)[3000:]
-    expected = lfilter([1.0, -phi], [1.0, -theta], y)[3000:]
-    np.testing.assert_allclose(late, expected * np.sqrt(theta / phi), rtol=1e-9)

@@ -21,8 +21,13 @@ from pam_ros.identification.fit.extend import (
 )
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.unknowns import nominal_unknowns, run_unknowns
+from pam_ros.identification.fit.unknowns import MemoryStart, nominal_unknowns, run_unknowns
 from pam_ros.identification.source_units import with_row
+from pam_ros.recording.recording import Recording
+from pam_ros.rig import layout as at
+from pam_ros.rig.loads import Arm
+from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import antagonistic_joint
 from support import bench_truth
 
 MODEL = bench_truth.nominal()
@@ -38,13 +43,18 @@ def problem():
     return Problem(SEGMENTS, MODEL.layout, (), MODEL.parameters().ravel(), unknowns, 0.01)
 
 
+def extended(problem, place, start, model=MODEL):
+    """Return a problem with an effect more, and its u where that begins."""
+    new, added = with_effect(problem, model, place, start)
+    return new, np.concatenate([np.zeros(len(problem.unknowns)), added])
+
+
 def test_an_effect_comes_with_its_parameters_and_where_its_memory_began(problem):
-    new, added = with_effect(problem, MODEL, PLACES['creep'], START)
+    new, u = extended(problem, PLACES['creep'], START)
     names = [one.name for one in new.unknowns[len(problem.unknowns) :]]
     assert names[:2] == ['effects.creep.stiffness', 'effects.creep.time']
-    assert len(names) == len(added) == 2 + 6
+    assert len(names) == u.size - len(problem.unknowns) == 2 + 6
     assert 'creep: slow contraction[0]' in names
-    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
     row = new.row_at(u)
     for k, p in enumerate(EFFECT['creep'].parameters()):
         expected = START.get(p.name, p.default)
@@ -61,8 +71,7 @@ def test_a_strength_of_zero_changes_nothing(problem):
 
 
 def test_more_of_an_effect_leaves_what_it_has(problem):
-    new, added = with_effect(problem, MODEL, PLACES['creep'], START)
-    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    new, u = extended(problem, PLACES['creep'], START)
     wider, more = with_effect(new, MODEL, PLACES['creep'], {'spread': 4.0})
     assert [one.name for one in wider.unknowns[len(new.unknowns) :]] == ['effects.creep.spread']
     row, before = wider.row_at(np.append(u, more)), new.row_at(u)
@@ -75,8 +84,7 @@ def test_more_of_an_effect_leaves_what_it_has(problem):
 @pytest.mark.parametrize('level', [20.0, 0.0])
 def test_strengths_in_one_unit_begin_at_the_mean_that_one_alone_had(problem, level):
     place = PLACES['coulomb_friction']
-    new, added = with_effect(problem, MODEL, place, {'level': level})
-    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    new, u = extended(problem, place, {'level': level})
     options = finer_starts(new.unknowns, new.row_at(u), MODEL, place)
     assert options[0] == {
         p.name: p.default for p in place.parameters if p.name != 'level'
@@ -162,8 +170,7 @@ STOPS = {'upper': 0.1, 'stiffness': 3e4, 'lower': 0.02, 'lower_stiffness': 3e4}
 def test_what_a_fit_ends_with_is_a_joint(problem, effect, start, end):
     """Also where each of its unknowns is at a bound, to the last digit."""
     place = PLACES[effect]
-    new, added = with_effect(problem, MODEL, place, start)
-    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    new, u = extended(problem, place, start)
     now = bounded(new, u, MODEL, place)
     assert np.all(np.clip(u, *now.bounds) == u)
     own = len(problem.unknowns)
@@ -178,14 +185,75 @@ def test_what_a_broader_effect_has_in_common_with_a_simpler_one(problem):
     """Its unknown parameters alone, with their present values, by the names of the simpler one."""
     place = PLACES['leak']
     start = {'rate': 0.03, 'refill': 0.1}
-    new, added = with_effect(problem, MODEL, place, start)
-    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    new, u = extended(problem, place, start)
     assert in_common(new, u, MODEL, place, 'pressure_lag') == pytest.approx({'fill': 0.1})
     more, last = with_effect(new, MODEL, place, {**start, 'vent': 0.05, 'supply': 1e6})
     both = np.concatenate([u, last])
     assert in_common(more, both, MODEL, place, 'pressure_lag') == pytest.approx(
         {'fill': 0.1, 'vent': 0.05, 'fastest': 1e6}
     )
-    none, added = with_effect(problem, MODEL, place, {'rate': 0.03})
-    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    none, u = extended(problem, place, {'rate': 0.03})
     assert in_common(none, u, MODEL, place, 'pressure_lag') == {}
+
+
+# Joints of two muscles ---------------------------------------------------------------------------
+
+
+NAMES = ('flexor', 'extensor')
+ELBOW = antagonistic_joint(load=Arm(mass=1.0))
+PLACES_OF_PAIR = places_of(ELBOW, NAMES)
+T = np.arange(0.0, 3.0, 0.01)
+COMMAND = 1e3 * np.stack([250.0 + 90.0 * np.sin(4.0 * T), 260.0 - 70.0 * np.cos(3.0 * T)], axis=1)
+LAG = {'fill': 0.06, 'vent': 0.09}
+
+
+def run_of(joint):
+    return simulate(joint, T, COMMAND, position=0.1).position
+
+
+@pytest.fixture
+def of_pair():
+    recording = Recording('elbow', T, T, COMMAND, run_of(ELBOW), muscles=NAMES, unit='rad')
+    segments = tuple(segments_of([recording]))
+    unknowns = (*nominal_unknowns(ELBOW, NAMES), *run_unknowns(segments, 1e-4))
+    row = ELBOW.parameters().ravel()
+    return Problem(segments, ELBOW.layout, ELBOW.library, row, unknowns)
+
+
+@pytest.mark.parametrize('name', ['pressure_lag', 'flexor.pressure_lag', 'extensor.pressure_lag'])
+def test_an_effect_acts_where_its_place_is(of_pair, name):
+    """The run of the problem is that of a joint that was configured with the effect."""
+    place = PLACES_OF_PAIR[name]
+    new, u = extended(of_pair, place, LAG, ELBOW)
+    model, _ = with_row(ELBOW, new.row_at(u), of_pair.segments, [place], {})
+    has = [bool(actuator.effects) for actuator in model.actuators]
+    assert has == [at.MUSCLE + i in place.rows for i in (0, 1)]
+    u[[k.name for k in of_pair.unknowns].index('y0[0]')] = 0.0
+    s = of_pair.segments[0]
+    expected = simulate(model, T, COMMAND, position=s.y0, velocity=s.v0).position
+    np.testing.assert_allclose(new.predict(u)[0], expected, atol=1e-9)
+    assert np.max(np.abs(expected - run_of(ELBOW))) > 0.01
+    less, keep = without_effect(new, ELBOW, place)
+    assert less.unknowns == of_pair.unknowns
+    np.testing.assert_array_equal(less.row, of_pair.row)
+    assert keep == list(range(len(of_pair.unknowns)))
+
+
+def test_memories_begin_in_each_muscle_where_it_was(of_pair):
+    new, added = with_effect(
+        of_pair, ELBOW, PLACES_OF_PAIR['creep'], {'stiffness': 300.0, 'time': 2.0}
+    )
+    memories = [k.of for k in new.unknowns if isinstance(k.of, MemoryStart)]
+    assert {of.row for of in memories} == {at.MUSCLE, at.MUSCLE + 1}
+    assert len(added) == 2 + len(memories)
+    assert len({of.name for of in memories}) == len(memories)
+
+
+def test_each_muscle_has_constants_of_its_own(of_pair):
+    names = [k.name for k in of_pair.unknowns]
+    u = np.zeros(len(names))
+    u[names.index('extensor.a5')] = 1.0
+    model, _ = with_row(ELBOW, of_pair.row_at(u), of_pair.segments, [], {})
+    first, second = model.muscles
+    assert first.a5 == pytest.approx(ELBOW.muscles[0].a5, rel=1e-12)
+    assert second.a5 == pytest.approx(1.03 * ELBOW.muscles[1].a5, rel=1e-6)

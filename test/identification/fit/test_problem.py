@@ -32,16 +32,12 @@ from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support.equations import unknown
+from support.searches import on_rail
 
 MUSCLE = single_muscle_joint(Muscle(), Mass(mass=20.0))
 # A force source of 0.01 N/Pa moves 5 kg on a rail: its motion is a parabola.
 GAIN, MASS = 0.01, 5.0
-FORCE = Muscle(
-    a1=0.0, a2=0.0, a3=0.0, a4=0.0, a5=GAIN, a6=0.0, zeta=0.0, pressure_unit='Pa',
-    contraction_unit='fraction', l0=1.0,
-)  # fmt: skip
-RAIL = Mass(mass=MASS, mount='horizontal')
-SOURCE = single_muscle_joint(FORCE, RAIL)
+SOURCE = on_rail(GAIN)
 PRESSURE = 100.0  # Pa: 0.2 m/s^2
 PLACES = places_of(MUSCLE)
 
@@ -66,7 +62,7 @@ def parabola(y0, v0, seconds=2.0):
     t = 3.0 + np.arange(round(100 * seconds)) / 100.0
     y = y0 + v0 * (t - 3.0) + 0.5 * GAIN * PRESSURE / MASS * (t - 3.0) ** 2
     command = np.full(2, PRESSURE)
-    recording = Recording('p', t, t[[0, -1]], command, y, None, None, None, 'free')
+    recording = Recording('p', t, t[[0, -1]], command, y)
     return segments_of([recording])[0]
 
 
@@ -154,7 +150,7 @@ def test_jacobian_of_the_force_law_in_closed_form():
 
 def lagging(tau):
     """Return a force source whose pressure lags by *tau* s."""
-    return single_muscle_joint(FORCE, RAIL, [PressureLag(fill=tau, vent=tau)])
+    return on_rail(GAIN, [PressureLag(fill=tau, vent=tau)])
 
 
 @pytest.mark.parametrize('away', [0.5, -1.0])
@@ -192,7 +188,7 @@ def test_a_memory_begins_where_a_simulation_with_this_start_begins(effect):
     t = np.arange(60) / 50.0
     command = 3e5 + 5e4 * np.sin(6.0 * t)
     y = np.full(t.size, equilibrium(model, command[0]))
-    recording = Recording('m', t, t, command, y, None, None, None, 'free')
+    recording = Recording('m', t, t, command, y)
     problem = problem_of(model, segments_of([recording]), [name])
     memories = [k for k, one in enumerate(problem.unknowns) if isinstance(one.of, MemoryStart)]
     assert len(memories) == sum(state.spread > 0.0 for state in effect.states)
@@ -212,7 +208,7 @@ def test_commands_that_act_early_move_the_load_early(early):
     command_t = np.arange(0.0, 1.5, 0.25)
     command = 3e5 + 4e4 * np.sin(9.0 * command_t)
     y = np.full(t.size, equilibrium(MUSCLE, command[0]))
-    recording = Recording('e', t, command_t, command, y, None, None, None, 'free')
+    recording = Recording('e', t, command_t, command, y)
     (s,) = segments_of([replace(recording, command_spread=1e-3)])
     without = problem_of(MUSCLE, [s])
     problem = replace(without, unknowns=(*without.unknowns, *time_unknowns([s])))
@@ -271,7 +267,7 @@ def test_jacobian_of_a_swinging_muscle_against_scipy():
     t = np.arange(400) / 100.0
     command = 3e5 + 5e4 * np.sin(2 * np.pi * 1.3 * t)
     y = np.full(t.size, equilibrium(MUSCLE, 3e5))
-    recording = Recording('m', t, t, command, y, None, None, None, 'free')
+    recording = Recording('m', t, t, command, y)
     problem = problem_of(model, segments_of([recording]), ['creep'])
     u = np.random.default_rng(3).uniform(-0.5, 0.5, len(problem.unknowns))
     found = problem.jacobian(u, problem.residuals(u))
@@ -330,16 +326,6 @@ def test_what_is_not_to_be_fitted_is_simulated_and_counts_for_nothing(two_runs):
         for s, mark, part in zip(two_runs.segments, marks, parts, strict=True)
     ]
     np.testing.assert_array_equal(found, np.concatenate(expected))
-
-
-def test_each_run_is_whitened_by_itself(two_runs):
-    """What was before a run's first sample is not known, and runs know nothing of each other."""
-    process = Discrepancy(2.0, 0.4)
-    values = np.random.default_rng(2).normal(size=(300, 3))
-    found = two_runs.whitened(values, two_runs.whitenings(process))
-    first, second = (process.whitening(s.t) for s in two_runs.segments)
-    expected = np.concatenate([first(values[:200]), second(values[200:])])
-    np.testing.assert_array_equal(found, expected)
 
 
 def test_an_infinite_prior_becomes_a_wide_one():

@@ -47,5 +47,5 @@ def test_lengths_that_differ_or_change_and_loads_that_move_have_no_level():
     assert level_unknowns([moving, second], RIG) == []
     assert level_unknowns([second, moving], RIG) == []
     t = np.arange(100) / 50.0
-    free = Recording('f', t, t, np.full(100, 3e5), np.full(100, 0.05), None, None, None, 'free')
+    free = Recording('f', t, t, np.full(100, 3e5), np.full(100, 0.05))
     assert level_unknowns(segments_of([free, free]), RIG) == []

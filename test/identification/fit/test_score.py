@@ -51,43 +51,6 @@ def test_it_is_the_evidence_of_a_linear_model(process, size):
     assert found + constant == pytest.approx(-2.0 * exact, rel=1e-9)
 
 
-def scores(y, sizes=(2, 3)):
-    """Return the scores of a line, and of a line with a sine."""
-    found = []
-    for size in sizes:
-        columns, prior = COLUMNS[:, :size], PRIOR[:size]
-        z, left, jacobian, _ = most_probable(y, columns, prior, WHITE.whitening(T))
-        found.append(score(left, one_run(-jacobian), z, prior, 0.0))
-    return found
-
-
-def test_a_term_that_is_there_is_preferred_and_one_that_is_not_costs():
-    line = COLUMNS[:, :2] @ np.array([1.0, -0.4])
-    plain, finer = scores(line + NOISE)
-    assert finer > plain  # a parameter that explains nothing costs
-    plain, finer = scores(line + 0.5 * COLUMNS[:, 2] + NOISE)
-    assert finer < plain - 10.0
-
-
-def test_a_parameter_with_a_smaller_uncertainty_costs_less():
-    y = COLUMNS[:, :2] @ np.array([1.0, -0.4]) + NOISE
-    found = []
-    for known in (0.1, 1.0, 10.0):
-        prior = np.array([2.0, 0.5, known])
-        z, left, jacobian, _ = most_probable(y, COLUMNS, prior, WHITE.whitening(T))
-        found.append(score(left, one_run(-jacobian), z, prior, 0.0))
-    assert found[0] < found[1] < found[2]
-
-
-def test_other_units_of_the_unknowns_change_nothing():
-    y = COLUMNS[:, 1] + NOISE
-    z, left, jacobian, _ = most_probable(y, COLUMNS, PRIOR, WHITE.whitening(T))
-    units = np.array([1e3, 1e-2, 7.0])
-    one = score(left, one_run(-jacobian), z, PRIOR, 0.0)
-    other = score(left, one_run(-jacobian / units), z, PRIOR * units, 0.0)
-    assert other == pytest.approx(one, rel=1e-12)
-
-
 def of_residuals(t, runs):
     """Return the most likely discrepancy of residuals of a model without unknowns."""
     r, columns = np.concatenate(runs), [np.empty((run.size, 0)) for run in runs]

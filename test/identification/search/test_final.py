@@ -29,11 +29,10 @@ from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support import bench_truth
-from support.searches import FILL, found_in
+from support.searches import FILL, NOISE, found_in
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
-NOISE = 20e-6
 
 
 def errors(known, ends, found):

@@ -7,16 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.fit.run_levels import level_unknowns, repeats
-from pam_ros.identification.fit.solve import initial_solution
+from pam_ros.identification.fit.run_levels import repeats
 from pam_ros.identification.fit.unknowns import RunLevel
-from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.levels import apart
-from pam_ros.identification.search.setting import Setting
 from pam_ros.recording.recording import Recording
 from support import bench_truth
+from support.searches import at_nominal, setting_of
 
 
 def at(kappa, name='held'):
@@ -29,28 +25,18 @@ def at(kappa, name='held'):
 def known():
     """Return the configured model over two repeats at 5 %, one at 10 % and a third at 5 %."""
     recordings = [at(kappa) for kappa in (0.05, 0.05, 0.1, 0.05)]
-    parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
-    problem = Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, None).problem
+    problem = setting_of(recordings, None).problem
     levels = {0: 6.0, 1: -2.5}
     u = [
         one.coordinate(levels[one.of.run]) if isinstance(one.of, RunLevel) else 0.0
         for one in problem.unknowns
     ]
-    return replace(initial_solution(problem, np.zeros(len(u))), u=np.array(u))
+    return replace(at_nominal(problem), u=np.array(u))
 
 
 def test_repeats_are_the_runs_at_one_length_in_their_order(known):
     l0 = bench_truth.nominal().muscle.l0
     assert repeats(known.problem.segments, l0) == [[0, 1, 3], [2]]
-
-
-def test_a_run_whose_length_changes_is_no_repeat():
-    moving = bench_truth.held(duration=8.0)
-    moving = replace(moving, position=moving.position + np.linspace(0.0, 5e-3, moving.t.size))
-    segments = segments_of([moving, moving])
-    nominal = bench_truth.nominal()
-    assert repeats(segments, nominal.muscle.l0) == []
-    assert level_unknowns(segments, nominal) == []
 
 
 def test_lengths_whose_recordings_lie_apart_are_listed_with_their_levels(known):

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What recordings could have shown: closed forms on a cylinder that a machine moves."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,13 +9,11 @@ import numpy as np
 import pytest
 
 from pam_ros.effects import EFFECTS
-from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import solve
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.power import hidden, power, reference
-from pam_ros.identification.search.setting import Setting
 from pam_ros.settings.nominal import nominal_joint
 from support import moved_cylinders
+from support.searches import retuned_of, setting_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
 ROOT = Path(__file__).parents[3]
@@ -24,14 +21,10 @@ EFFECT = {effect.name: effect for effect in EFFECTS}
 
 
 @pytest.fixture(scope='module')
-def retuned():
+def retuned(pool):
     """Return the re-tuned model of a cylinder without friction at 3 bar."""
     cylinder = nominal_joint(ROOT / 'config' / 'rigs' / 'cylinder_25mm.yaml').joint
-    parts = parts_of([moved_cylinders.recording(3.0)], CRITERIA.fit, CRITERIA.choose)
-    with ThreadPoolExecutor(1) as pool:
-        setting = Setting(cylinder, parts, CRITERIA, BUDGET, pool)
-        problem = setting.problem
-        yield setting.model((), solve(problem, np.zeros(len(problem.unknowns))))
+    return retuned_of(setting_of([moved_cylinders.recording(3.0)], pool, cylinder))
 
 
 def power_of(name, model):

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A search on recordings of the truth plant, which shares nothing with the package."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -10,9 +9,8 @@ import pytest
 
 from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import initial_solution
 from pam_ros.identification.search import search as search_module
-from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.moves import absent_effects, with_each
 from pam_ros.identification.search.search import (
     Search,
@@ -21,24 +19,27 @@ from pam_ros.identification.search.search import (
     order_candidates,
     simplify,
 )
-from pam_ros.identification.search.setting import Errors, Setting
+from pam_ros.identification.search.setting import Errors
 from pam_ros.identification.search.table import is_instead_of_constants
 from pam_ros.identification.verdict import explains
 from support import bench_truth
 from support.marks import at_release
-from support.searches import found_in
+from support.searches import at_nominal, found_in, setting_of
 from truth import effect
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
 OFF = np.array([0.02, -0.03, 0.01, -0.02, 0.01, 0.03])  # a specimen within its priors
 
 
-def searched(recordings, model=None, shares=(CRITERIA.fit, CRITERIA.choose)):
-    """Return the search of recordings for what *model* lacks."""
-    model = model or bench_truth.nominal(off=OFF)
-    parts = parts_of(recordings, *shares)
-    with ThreadPoolExecutor() as pool:
-        return find_effects(Setting(model, parts, CRITERIA, BUDGET, pool))
+@pytest.fixture
+def searched(pool):
+    """Return a function that searches recordings for what a model lacks."""
+
+    def search(recordings, model=None, **shares):
+        model = model or bench_truth.nominal(off=OFF)
+        return find_effects(setting_of(recordings, pool, model, **shares))
+
+    return search
 
 
 @pytest.mark.parametrize(
@@ -52,7 +53,7 @@ def searched(recordings, model=None, shares=(CRITERIA.fit, CRITERIA.choose)):
     ],
     ids=lambda one: one.kind,
 )
-def test_the_effect_that_is_there_is_found_and_no_other(there):
+def test_the_effect_that_is_there_is_found_and_no_other(searched, there):
     found = searched([bench_truth.free(there, seed=3, duration=25.0)])
     assert found.best.effects == (there.kind,)
     assert explains(found)
@@ -85,52 +86,44 @@ def test_a_broader_effect_and_the_simpler_one_are_compared_with_all_their_parame
     assert simplify(leak, leak.effects, found).effects == (name,)
 
 
-def test_a_simpler_effect_counts_by_its_best_fit(pool, monkeypatch):
-    """A fit that starts near the broader effect can stop before an earlier one did."""
+@pytest.fixture(scope='module')
+def explained_by_leak(pool):
+    """Return a search on a lag that is explained by a leak, the leak with all of it, and a lag."""
     found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
-    setting, leak = found.setting, free_parameters(found.best, found)
-    (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
-    worse = [replace(found.retuned, effects=('pressure_lag',))]
-    monkeypatch.setattr(search_module, 'with_simpler_effect', lambda *given: [])
-    monkeypatch.setattr(search_module, 'remove_effect', lambda *given: found.retuned)
-    monkeypatch.setattr(search_module, 'with_each', lambda *given: worse)
-    monkeypatch.setattr(search_module, 'free_parameters', lambda model, found: model)
-    assert simplify(leak, leak.effects, found) is leak
-    found.evaluate([lag])
-    assert simplify(leak, leak.effects, found) is lag
-
-
-def test_additional_parameters_that_are_not_needed_do_not_save_a_broader_effect(pool, monkeypatch):
-    """With them the free run of the simpler effect may be worse than without."""
-    found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
-    setting, leak = found.setting, free_parameters(found.best, found)
-    (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
-    worse = replace(lag, solution=replace(found.retuned.solution))
-    monkeypatch.setattr(search_module, 'with_simpler_effect', lambda *given: [])
-    monkeypatch.setattr(search_module, 'remove_effect', lambda *given: found.retuned)
-    monkeypatch.setattr(search_module, 'with_each', lambda *given: [lag])
-    monkeypatch.setattr(search_module, 'free_parameters', lambda model, found: worse)
-    assert simplify(leak, leak.effects, found) is lag
-
-
-def test_a_simpler_effect_that_suffices_gets_parameters_that_the_broader_one_lacks(
-    pool, monkeypatch
-):
-    """The flow of a valve depends on the pressures at it, which a leak cannot describe."""
-    found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
-    leak = found.best
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], found.setting)
-    wider = replace(lag)
-    monkeypatch.setattr(search_module, 'with_simpler_effect', lambda *given: [lag])
-    monkeypatch.setattr(search_module, 'is_sufficient', lambda less, *given: less is lag)
-    monkeypatch.setattr(
-        search_module, 'free_parameters', lambda model, found: wider if model is lag else model
-    )
-    assert simplify(leak, leak.effects, found) is wider
+    return found, free_parameters(found.best, found), lag
+
+
+@pytest.mark.parametrize('case', ['none', 'earlier', 'plain', 'with all', 'from the leak'])
+def test_a_simpler_effect_counts_by_its_best_fit(explained_by_leak, monkeypatch, case):
+    """The fits are given.
+
+    One that starts near the broader effect can stop before an earlier one did; with additional
+    parameters that are not needed, the free run may be worse than without; and a simpler effect
+    that suffices gets those that it has alone, such as the flow of a valve.
+    """
+    whole, leak, lag = explained_by_leak
+    found, wider = replace(whole, evaluated=[*whole.evaluated]), replace(lag)
+    poor = replace(found.retuned, effects=('pressure_lag',))
+    if case == 'earlier':
+        found.evaluate([lag])
+    direct, fits = [lag] * (case == 'from the leak'), [lag if case == 'plain' else poor]
+    given = {
+        'with_simpler_effect': lambda *given: direct,
+        'is_sufficient': lambda *given: bool(direct),
+        'within_tolerance': lambda one, *given: one in (lag, wider),
+        'remove_effect': lambda *given: found.retuned,
+        'with_each': lambda *given: fits,
+        'free_parameters': lambda *given: wider if direct or case == 'with all' else poor,
+    }
+    for name, function in given.items():
+        monkeypatch.setattr(search_module, name, function)
+    expected = {'none': leak, 'earlier': lag, 'plain': lag}.get(case, wider)
+    assert simplify(leak, leak.effects, found) is expected
 
 
 @pytest.mark.parametrize('rho', [0.0, 0.95], ids=['white', 'coloured'])
-def test_noise_is_no_effect(rho):
+def test_noise_is_no_effect(searched, rho):
     found = searched([bench_truth.free(seed=4, rho=rho)])
     assert found.best.effects == ()
     assert found.best.score <= min(model.score for model in found.evaluated) + CRITERIA.margin
@@ -141,7 +134,7 @@ def test_noise_is_no_effect(rho):
     }
 
 
-def test_a_payload_that_retuning_hides_is_found_by_the_strain_of_the_constants():
+def test_a_payload_that_retuning_hides_is_found_by_the_strain_of_the_constants(searched):
     model = bench_truth.nominal(mass=17.0)
     found = searched([bench_truth.free(seed=5, duration=40.0)], model)
     assert found.best.effects == ('payload',)
@@ -152,7 +145,7 @@ def test_a_payload_that_retuning_hides_is_found_by_the_strain_of_the_constants()
     assert explains(found)
 
 
-def test_creep_that_has_not_settled_when_the_recording_begins():
+def test_creep_that_has_not_settled_when_the_recording_begins(searched):
     """It was on its way when the first sample came: 12 s of motion before are cut off."""
     whole = bench_truth.free(effect('creep', 'strain'), seed=6, duration=60.0)
     late = whole.t >= 12.0
@@ -169,16 +162,16 @@ def test_creep_that_has_not_settled_when_the_recording_begins():
 
 
 @pytest.mark.release
-def test_hysteresis_is_found_where_every_recording_falls_at_its_end_only():
+def test_hysteresis_is_found_where_every_recording_falls_at_its_end_only(searched):
     """Whole recordings choose, so that fits see the way back; divided in time, creep was found."""
     there = effect('hysteresis', 'pressure')
     recordings = [bench_truth.step_and_back(there, seed=k) for k in range(6)]
-    found = searched(recordings, shares=(CRITERIA.fit / CRITERIA.choose, 1.0))
+    found = searched(recordings, fit=CRITERIA.fit / CRITERIA.choose, choose=1.0)
     assert found.best.effects == ('pressure_hysteresis',)
     assert explains(found)
 
 
-def test_nothing_sees_what_judges():
+def test_nothing_sees_what_judges(searched):
     """The last quarter may hold anything: the search is the same to the bit."""
     recording = bench_truth.free(effect('viscous_friction'), seed=7, duration=12.0)
     (part,) = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
@@ -190,7 +183,7 @@ def test_nothing_sees_what_judges():
     assert [m.score for m in one.evaluated] == [m.score for m in other.evaluated]
 
 
-def test_an_effect_that_is_configured_is_not_tried():
+def test_an_effect_that_is_configured_is_not_tried(searched):
     model = bench_truth.nominal()
     known = replace(model, effects=[ViscousFriction(coefficient=60.0)])
     found = searched([bench_truth.free(effect('viscous_friction'), seed=3)], known)
@@ -200,13 +193,15 @@ def test_an_effect_that_is_configured_is_not_tried():
 
 
 @pytest.mark.release
-def test_what_is_not_in_the_library_gets_no_name():
+def test_what_is_not_in_the_library_gets_no_name(searched):
     found = searched([bench_truth.free(effect('random_walk'), seed=8, duration=40.0)])
     assert not explains(found)
 
 
 @pytest.mark.release
-def test_an_effect_that_lowers_only_the_score_is_replaced_by_one_that_improves_the_free_run():
+def test_an_effect_that_lowers_only_the_score_is_replaced_by_one_with_a_better_free_run(
+    searched,
+):
     """Viscous friction has the better score, and 1 % of the error, as long as creep is missing."""
     there = (effect('viscous_friction', viscous_ns_m=42.0), effect('creep', 'pressure'))
     found = searched([bench_truth.free(*there, seed=9, duration=60.0)])
@@ -214,7 +209,7 @@ def test_an_effect_that_lowers_only_the_score_is_replaced_by_one_that_improves_t
 
 
 @pytest.mark.release
-def test_a_strength_that_describes_most_of_another_effect_is_exchanged_for_it():
+def test_a_strength_that_describes_most_of_another_effect_is_exchanged_for_it(searched):
     """A lag with a dead zone of its valve is better than a dead time or a narrow hysteresis alone.
 
     No effect that is added to it matters.
@@ -233,10 +228,8 @@ def test_where_other_recordings_choose_the_nearest_free_run_leads(count, first, 
     The scores are lower than that of any fit, so that no model is fitted again.
     """
     recordings = [bench_truth.free(seed=k, name=f'{k}.csv') for k in range(count)]
-    parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
-    setting = Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, pool)
-    problem = setting.problem
-    place = initial_solution(problem, np.zeros(len(problem.unknowns)))
+    setting = setting_of(recordings, pool)
+    place = at_nominal(setting.problem)
 
     def model(name, score, error, is_screened=False):
         found = setting.model((name,), replace(place), is_screened)

@@ -2,17 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Moves of a search on a joint of two muscles."""
 
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from pam_ros.effects import CoulombFriction, PressureLag
-from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import solve
-from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.moves import absent_effects, with_each
 from pam_ros.identification.search.search import (
     Search,
@@ -20,12 +15,12 @@ from pam_ros.identification.search.search import (
     free_parameters,
     share_between_muscles,
 )
-from pam_ros.identification.search.setting import Setting
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm
 from pam_ros.rig.run import simulate
 from pam_ros.rig.transmissions import Pulley
+from support.searches import retuned_of, setting_of
 
 pytestmark = pytest.mark.needs_numba
 PRESLIDING = 4e-3  # rad
@@ -46,24 +41,19 @@ def elbow(first, second, on_joint=()):
     return Joint(muscles, Arm(mass=1.0, arm=0.25), Pulley(radius=0.04), effects=on_joint)
 
 
-@contextmanager
-def search_on(joint):
-    """Yield a search on 16 s of *joint*, whose nominal model has no effects, after re-tuning."""
+def search_on(joint, pool):
+    """Return a search on 16 s of *joint*, whose nominal model has no effects, after re-tuning."""
     noise = np.random.default_rng(5).normal(0.0, 2e-4, T.size)
     angle = simulate(joint, T, COMMAND).position + noise
     recording = Recording('elbow', T, T, COMMAND, angle, muscles=NAMES, unit='rad')
-    parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
-    with ThreadPoolExecutor(2) as pool:
-        setting = Setting(elbow((), ()), parts, CRITERIA, BUDGET, pool, NAMES)
-        problem = setting.problem
-        retuned = setting.model((), solve(problem, np.zeros(len(problem.unknowns)), pool=pool))
-        yield Search(setting, retuned, retuned, [retuned])
+    setting = setting_of([recording], pool, elbow((), ()), muscles=NAMES)
+    retuned = retuned_of(setting)
+    return Search(setting, retuned, retuned, [retuned])
 
 
 @pytest.fixture(scope='module')
-def in_both():
-    with search_on(elbow(LAG, LAG)) as found:
-        yield found
+def in_both(pool):
+    return search_on(elbow(LAG, LAG), pool)
 
 
 def with_lag(found, muscles):
@@ -91,18 +81,18 @@ def test_an_effect_of_one_muscle_stays_there(in_both):
     assert 'flexor.dead_time' not in names
 
 
-def test_finer_steps_free_a_parameter_that_long_steps_hide():
+def test_finer_steps_free_a_parameter_that_long_steps_hide(pool):
     """A step of 20 ms makes the contact longer than it is before it slides."""
     rig = elbow((), (), [CoulombFriction(level=0.8, presliding=PRESLIDING)])
     name = 'effects.coulomb_friction.presliding'
-    with search_on(rig) as found:
-        noise = found.setting.noise
-        (coarse,) = with_each(found.retuned, ['coulomb_friction'], found.setting)
-        now = free_parameters(coarse, found)
-        assert name not in {unknown.name for unknown in now.solution.problem.unknowns}
-        assert now.errors.fit > 5.0 * noise
-        best = confirm(replace(found, best=now))
-        assert best.effects == now.effects
-        assert best.solution.problem.step < now.solution.problem.step
-        assert best.solution.value(name) == pytest.approx(PRESLIDING, rel=0.05)
-        assert best.errors.fit < 1.1 * noise
+    found = search_on(rig, pool)
+    noise = found.setting.noise
+    (coarse,) = with_each(found.retuned, ['coulomb_friction'], found.setting)
+    now = free_parameters(coarse, found)
+    assert name not in {unknown.name for unknown in now.solution.problem.unknowns}
+    assert now.errors.fit > 5.0 * noise
+    best = confirm(replace(found, best=now))
+    assert best.effects == now.effects
+    assert best.solution.problem.step < now.solution.problem.step
+    assert best.solution.value(name) == pytest.approx(PRESLIDING, rel=0.05)
+    assert best.errors.fit < 1.1 * noise

@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Errors of models over the parts of a recording, against simulations by hand."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from pam_ros.effects import Creep
-from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.data.thinning import LONGEST_PERIOD, PERIODS, coarse_period
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.solve import (
@@ -19,7 +17,6 @@ from pam_ros.identification.fit.solve import (
 )
 from pam_ros.identification.fit.unknowns import MemoryStart
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.setting import Setting
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.equilibrium import equilibrium
@@ -27,8 +24,7 @@ from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support import bench_truth
-
-NOISE = 20e-6
+from support.searches import NOISE, at_nominal, on_rail, recorded_on_rail, setting_of
 
 
 def rms(e):
@@ -95,29 +91,27 @@ def test_the_nearest_free_run_is_looked_for_from_nominal_constants_too(setting, 
     assert short.model((), least_squares(known, 60)).errors.fit == pytest.approx(best, rel=0.01)
 
 
-def test_at_a_prescribed_length_what_chooses_begins_at_rest():
+def test_at_a_prescribed_length_what_chooses_begins_at_rest(pool):
     """A fitted start of a memory is worth nothing in another recording."""
     joint = bench_truth.nominal()
-    parts = parts_of([bench_truth.held(rate=50.0)], CRITERIA.fit, CRITERIA.choose)
-    with ThreadPoolExecutor() as pool:
-        setting = Setting(joint, parts, CRITERIA, BUDGET, pool)
-        start = {'pressure': 0.1, 'time': 20.0}
-        problem, added = with_effect(setting.problem, joint, setting.places['creep'], start)
-        u = np.concatenate([np.zeros(len(setting.problem.unknowns)), added])
-        memories = [isinstance(one.of, MemoryStart) for one in problem.unknowns]
-        assert any(memories)
-        unsettled = setting.errors(initial_solution(problem, np.where(memories, 5.0, u)))
-        (part,) = setting.thin
-        s = part.segment
-        creeping = single_muscle_joint(joint.muscle, joint.load, effects=[Creep(**start)])
-        run = simulate_held(creeping, s.t, s.pressure, s.position)
-        e = run.force - s.target
-        assert unsettled.choose == pytest.approx(rms(e[part.choose]), rel=0.02)
-        assert unsettled.free_run == unsettled.choose
-        settled = setting.errors(initial_solution(problem, u))
-        assert settled.fit == pytest.approx(rms(e[part.fit]), rel=0.02)
-        assert settled.choose == unsettled.choose
-        assert abs(unsettled.fit - settled.fit) > 0.1
+    setting = setting_of([bench_truth.held(rate=50.0)], pool, joint)
+    start = {'pressure': 0.1, 'time': 20.0}
+    problem, added = with_effect(setting.problem, joint, setting.places['creep'], start)
+    u = np.concatenate([np.zeros(len(setting.problem.unknowns)), added])
+    memories = [isinstance(one.of, MemoryStart) for one in problem.unknowns]
+    assert any(memories)
+    unsettled = setting.errors(initial_solution(problem, np.where(memories, 5.0, u)))
+    (part,) = setting.thin
+    s = part.segment
+    creeping = single_muscle_joint(joint.muscle, joint.load, effects=[Creep(**start)])
+    run = simulate_held(creeping, s.t, s.pressure, s.position)
+    e = run.force - s.target
+    assert unsettled.choose == pytest.approx(rms(e[part.choose]), rel=0.02)
+    assert unsettled.free_run == unsettled.choose
+    settled = setting.errors(initial_solution(problem, u))
+    assert settled.fit == pytest.approx(rms(e[part.fit]), rel=0.02)
+    assert settled.choose == unsettled.choose
+    assert abs(unsettled.fit - settled.fit) > 0.1
 
 
 def test_the_noise_is_found_without_what_judges(setting):
@@ -142,10 +136,7 @@ def test_strain_is_the_prior_chi_square_of_constants_alone(setting):
     assert model.strain == pytest.approx(float(np.sum(u[known] ** 2)))
 
 
-SOURCE = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l0': 1.0}
-UNITS = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
-RAIL = Mass(mass=5.0, mount='horizontal')
-DECLARED = single_muscle_joint(Muscle(a5=0.0102, **SOURCE, **UNITS), RAIL)
+DECLARED = on_rail(0.0102)
 
 
 def test_of_more_samples_than_a_search_needs_fewer_are_used_as_the_rig_allows(pool):
@@ -153,10 +144,7 @@ def test_of_more_samples_than_a_search_needs_fewer_are_used_as_the_rig_allows(po
     t = np.arange(2000) * 5e-3
     command = 2e5 + 1e5 * np.sin(3.0 * t)
     y = simulate(slow, t, command, position=0.03).position
-    parts = parts_of(
-        [Recording('slow', t, t, command, y, None, None, None, 'free')], CRITERIA.fit, 0.75
-    )
-    plain = Setting(slow, parts, CRITERIA, BUDGET, pool)
+    plain = setting_of([Recording('slow', t, t, command, y)], pool, slow)
     size = plain.thin[0].segment.t.size
     assert plain.period == PERIODS[1]
     for share, times in ((1.01, 1.0), (0.51, 2.0), (0.34, 3.0)):
@@ -175,75 +163,51 @@ def test_the_rests_of_too_many_samples_are_shortened(pool):
     command = np.where(t < 30.0, 2e5, 3e5)
     run = simulate(slow, t, command, position=float(equilibrium(slow, 2e5)))
     y = run.position + NOISE * np.random.default_rng(0).standard_normal(t.size)
-    parts = parts_of([Recording('rests', t, t, command, y, None, None, None, 'free')], 0.9, 0.95)
-    plain = Setting(slow, parts, CRITERIA, replace(BUDGET, samples=10_000), pool)
+    many = replace(BUDGET, samples=10_000)
+    plain = setting_of([Recording('rests', t, t, command, y)], pool, slow, 0.9, 0.95, many)
     short = replace(plain, budget=replace(BUDGET, samples=1700))
     size = [setting.thin[0].segment.t.size for setting in (plain, short)]
     assert plain.period == short.period
     assert size[1] < 0.5 * size[0]
 
 
-def on_a_rail(begin=0.0, gain=0.0100):
-    """Return 16 s of a load that a force source of *gain* N/Pa moves, from *begin* on."""
-    truth = single_muscle_joint(Muscle(a5=gain, **SOURCE, **UNITS), RAIL)
-    t = np.arange(1600) / 100.0
-    command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)
-    y = simulate(truth, t, command, position=0.1).position
-    y = y + NOISE * np.random.default_rng(3).standard_normal(t.size)
-    t = begin + t
-    return Recording('rail', t, t, command, y, None, None, None, 'free')
-
-
-def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one():
+def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one(pool):
     """Configured 2 % too strong, it runs away."""
-    with ThreadPoolExecutor() as pool:
-        parts = parts_of([on_a_rail()], CRITERIA.fit, CRITERIA.choose)
-        setting = Setting(DECLARED, parts, CRITERIA, BUDGET, pool)
-        problem = setting.problem
-        assert len(problem.segments) == round(CRITERIA.fit * 16.0 / BUDGET.window)
-        assert max(s.t[-1] for s in problem.segments) < CRITERIA.fit * 16.0
-        errors = setting.errors(initial_solution(problem, np.zeros(len(problem.unknowns))))
-        assert errors.free_run > 2.0 * errors.choose > 2.0 * NOISE
-        # The run that is carried on is the configured model's, from the measured start.
-        s = setting.thin[0].segment
-        run = simulate(
-            DECLARED, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0, step=setting.step
-        ).position
-        keep = setting.thin[0].choose
-        assert errors.free_run == pytest.approx(rms((run - s.target)[keep]), rel=1e-6)
+    setting = setting_of([recorded_on_rail(on_rail())], pool, DECLARED)
+    problem = setting.problem
+    assert len(problem.segments) == round(CRITERIA.fit * 16.0 / BUDGET.window)
+    assert max(s.t[-1] for s in problem.segments) < CRITERIA.fit * 16.0
+    errors = setting.errors(at_nominal(problem))
+    assert errors.free_run > 2.0 * errors.choose > 2.0 * NOISE
+    # The run that is carried on is the configured model's, from the measured start.
+    s = setting.thin[0].segment
+    run = simulate(
+        DECLARED, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0, step=setting.step
+    ).position
+    keep = setting.thin[0].choose
+    assert errors.free_run == pytest.approx(rms((run - s.target)[keep]), rel=1e-6)
 
 
-def test_each_short_run_is_divided_by_its_own_recording():
-    first, second = on_a_rail(), on_a_rail(100.0, gain=0.0109)
+def test_each_short_run_is_divided_by_its_own_recording(pool):
+    first, second = recorded_on_rail(on_rail()), recorded_on_rail(on_rail(0.0109), 100.0)
 
-    def errors(recordings):
-        parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
-        with ThreadPoolExecutor() as pool:
-            setting = Setting(DECLARED, parts, CRITERIA, BUDGET, pool)
-            problem = setting.problem
-            found = setting.errors(initial_solution(problem, np.zeros(len(problem.unknowns))))
+    def errors(*recordings):
+        setting = setting_of(recordings, pool, DECLARED)
+        found = setting.errors(at_nominal(setting.problem))
         return np.array([found.fit, found.choose, found.free_run])
 
-    pooled = np.sqrt((errors([first]) ** 2 + errors([second]) ** 2) / 2.0)
-    np.testing.assert_allclose(errors([first, second]), pooled, rtol=1e-6)
+    pooled = np.sqrt((errors(first) ** 2 + errors(second) ** 2) / 2.0)
+    np.testing.assert_allclose(errors(first, second), pooled, rtol=1e-6)
 
 
-def test_a_stretch_with_too_little_to_fit_is_no_run():
+def test_a_stretch_with_too_little_to_fit_is_no_run(pool):
     whole = bench_truth.free(duration=8.0)
     keep = np.ones(whole.t.size, dtype=bool)
     keep[10:30] = False
     gaps = ((float(whole.t[9]), float(whole.t[30])),)
     gap = replace(whole, t=whole.t[keep], position=whole.position[keep], gaps=gaps)
-    parts = parts_of([gap], CRITERIA.fit, CRITERIA.choose)
-    assert [part.segment.t.size for part in parts] == [770, 10]
-    with ThreadPoolExecutor() as pool:
-        setting = Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, pool)
-        problem = setting.problem
-        assert len(problem.segments) == 1
-        assert problem.segments[0].t[0] == pytest.approx(whole.t[30])
-        assert (
-            setting.model(
-                (), initial_solution(problem, np.zeros(len(problem.unknowns)))
-            ).errors.fit
-            < 1e-3
-        )
+    setting = setting_of([gap], pool)
+    assert [part.segment.t.size for part in setting.parts] == [770, 10]
+    (run,) = setting.problem.segments
+    assert run.t[0] == pytest.approx(whole.t[30])
+    assert setting.model((), at_nominal(setting.problem)).errors.fit < 1e-3

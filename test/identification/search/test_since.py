@@ -2,15 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Since when a model fails, on recordings of the truth plant."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.onset import index_of_onset, keeping_onset
-from pam_ros.identification.fit.solve import converge, initial_solution
+from pam_ros.identification.fit.solve import converge
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.onset import (
     OnsetEstimate,
@@ -18,9 +16,8 @@ from pam_ros.identification.search.onset import (
     find_late_effects,
     shares_after,
 )
-from pam_ros.identification.search.setting import Setting
 from pam_ros.identification.search.starts import screen
-from support import bench_truth
+from support import bench_truth, searches
 from support.marks import at_release
 from truth import effect
 
@@ -29,16 +26,12 @@ SHARES = CRITERIA.fit, CRITERIA.choose
 
 
 @pytest.fixture(scope='module')
-def setting_of():
+def setting_of(pool):
     """Return a function that makes the setting of a search of recordings."""
-    with ThreadPoolExecutor() as pool:
-
-        def made(*recordings, shares=SHARES, model=None):
-            parts = parts_of(recordings, *shares)
-            model = model or bench_truth.nominal(off=0.02 * np.array([1, -1, 1, 1, -1, 1]))
-            return Setting(model, parts, CRITERIA, BUDGET, pool)
-
-        yield made
+    specimen = bench_truth.nominal(off=0.02 * np.array([1, -1, 1, 1, -1, 1]))
+    return lambda *recordings, shares=SHARES: searches.setting_of(
+        recordings, pool, specimen, *shares
+    )
 
 
 @pytest.mark.needs_numba
@@ -142,7 +135,7 @@ def test_cheap_fits_keep_the_onset(name, setting_of):
     recording = bench_truth.late(effect('payload', payload_kg=-4.0), ONSET)
     since = estimate_onset(setting_of(recording))
     late = replace(setting_of(recording, shares=(0.8, 0.9)), onset=since.time)
-    start = initial_solution(late.problem, np.zeros(len(late.problem.unknowns)))
+    start = searches.at_nominal(late.problem)
     found = screen(late.model((), keeping_onset(start, converge)), late.places[name], late)
     assert found
     for one in found:

@@ -11,18 +11,13 @@ from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.search.final import fit_finally
 from pam_ros.identification.search.stages import stages
-from pam_ros.muscle.muscle import Muscle
-from pam_ros.recording.recording import Recording
-from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
-from pam_ros.rig.standard_joints import single_muscle_joint
 from support import bench_truth
 from support.by_name import by_name
-from support.searches import FILL, found_in
+from support.searches import FILL, NOISE, found_in, on_rail, recorded_on_rail
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
-NOISE = 20e-6
 
 
 def rms(e):
@@ -110,18 +105,8 @@ def test_test_recordings_begin_as_they_were_measured(ends, found):
 
 
 def test_a_load_without_a_spring_is_shown_in_one_run_from_its_measured_start(pool):
-    source = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l0': 1.0}
-    units = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
-    rail = Mass(mass=5.0, mount='horizontal')
-    nominal = single_muscle_joint(Muscle(a5=0.0102, **source, **units), rail)
-    there = [ViscousFriction(coefficient=4.0)]
-    true = replace(single_muscle_joint(Muscle(a5=0.0100, **source, **units), rail), effects=there)
-    t = np.arange(1600) / 100.0
-    command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)
-    y = simulate(true, t, command, position=0.1).position
-    y = y + NOISE * np.random.default_rng(3).standard_normal(t.size)
-    recording = Recording('rail', t, t, command, y, None, None, None, 'free')
-    found = found_in([recording], pool, name='viscous_friction', model=nominal)
+    recording = recorded_on_rail(on_rail(effects=[ViscousFriction(coefficient=4.0)]))
+    found = found_in([recording], pool, name='viscous_friction', model=on_rail(0.0102))
     last = stages(fit_finally(found), found, ())[2]
     s = found.setting.parts[0].segment
     run = simulate(last.model, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0).position
