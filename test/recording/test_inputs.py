@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import ParameterError, RecordingError
-from pam_ros.recording.inputs import driving, outputs, quantity_of, refuse_copies
+from pam_ros.recording.inputs import driving, is_constant, outputs, quantity_of, refuse_copies
 from pam_ros.recording.recording import Recording
 
 T = np.arange(500) * 0.005
@@ -71,3 +71,12 @@ def test_no_recording_is_given_twice():
         refuse_copies([one, other, copy])
     with pytest.raises(RecordingError, match='two has the same samples as two'):
         refuse_copies([of_two(), of_two()])
+
+
+@pytest.mark.parametrize('size', [1e-5, 100.0])
+def test_a_signal_with_white_noise_is_constant_and_a_slow_one_is_not(size):
+    noise = np.random.default_rng(4).standard_normal(T.size)
+    level = 3e3 * size
+    assert is_constant(level + size * noise)
+    assert not is_constant(level + 10.0 * size * np.sin(T) + size * noise)
+    assert is_constant(np.full(T.size, level))

@@ -89,6 +89,10 @@ def test_a_measured_pressure_drives_without_delay():
     at_samples = np.searchsorted(stamps, t[:-1])
     integral = np.add.reduceat(held * widths, at_samples)
     np.testing.assert_allclose(integral, 0.5 * (p[1:] + p[:-1]) * np.diff(t), atol=1e-12)
+    # Where samples are close enough, each interval is held at its mean.
+    stamps, held = one.drive(0.02)
+    np.testing.assert_array_equal(stamps, t[:-1])
+    np.testing.assert_allclose(held, 0.5 * (p[1:] + p[:-1]), atol=1e-12)
 
 
 def test_nothing_drives():
