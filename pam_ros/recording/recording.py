@@ -133,9 +133,11 @@ class Recording:
         for names in (('t', *OUTPUTS), ('command_t', 'command')):
             given = {name: getattr(self, name) for name in names}
             masks = [np.ma.getmaskarray(one) for one in given.values() if np.ma.is_masked(one)]
+            if not masks:
+                continue
             # Arrays that do not match each other are refused below.
             lengths = {np.shape(one)[:1] for one in given.values() if one is not None}
-            if not masks or len(lengths) > 1:
+            if len(lengths) > 1:
                 continue
             is_masked = np.any([m.reshape(m.shape[0], -1).any(axis=1) for m in masks], axis=0)
             for name, one in given.items():

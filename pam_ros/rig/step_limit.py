@@ -64,9 +64,12 @@ def _refuse(joint: Joint, step: float, longest: float) -> NoReturn:
     these = 'this muscle' if len(joint.muscles) == 1 else 'these muscles'
     unit = 'N m s/rad' if joint.is_revolute else 'N s/m'
     braked = f' with a drag of {braking:.4g} {unit}' if braking > 0.0 else ''
+    # A motion can be so fast that no step resolves it.
+    rate = 1.0 / longest if longest > 0.0 else math.inf
+    steps = f'at least {math.ceil(rate)} steps a second, or ' if math.isfinite(rate) else ''
     raise ParameterError(
         f'a physics step of {step * 1e3:g} ms does not resolve {moved} on {these}{braked}: give '
-        f'at least {math.ceil(1.0 / longest)} steps a second, or more {more}'
+        f'{steps}more {more}'
     )
 
 

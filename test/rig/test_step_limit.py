@@ -144,6 +144,12 @@ def test_two_equal_muscles_need_the_step_of_one_with_half_the_mass():
             0.1,
             'a physics step of 100 ms does not resolve a mass of 50 kg on these muscles',
         ),
+        (
+            single_muscle_joint(load=Mass(mass=5e-324)),
+            1e-3,
+            'a physics step of 1 ms does not resolve a mass of 4.94066e-324 kg on this muscle: '
+            'give more mass',
+        ),
     ],
 )
 def test_a_step_that_resolves_nothing_is_refused(joint, step, sentence):
