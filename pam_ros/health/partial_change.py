@@ -26,8 +26,9 @@ class PartialChange:
         """Read the time in s from *clock*."""
         self._clock = clock
         self._last = float('-inf')
-        self._set: list[str] = []
-        self._refused: list[str] = []
+        # Names in their order, each once: a program may set one again and again.
+        self._set: dict[str, None] = {}
+        self._refused: dict[str, None] = {}
         self._is_said = False
 
     def refuse(self, names: Iterable[str]) -> str:
@@ -36,24 +37,24 @@ class PartialChange:
         These were set before, within the same request.
         """
         self._begin()
-        self._refused += names
+        self._refused |= dict.fromkeys(names)
         return self._mixture()
 
     def accept(self, names: Iterable[str]) -> str:
         """Note that *names* are set; return a sentence as :meth:`refuse` does."""
         self._begin()
-        self._set += names
+        self._set |= dict.fromkeys(names)
         return self._mixture()
 
     def _begin(self) -> None:
         now = self._clock()
         if now - self._last > TOGETHER:
-            self._set, self._refused, self._is_said = [], [], False
+            self._set, self._refused, self._is_said = {}, {}, False
         self._last = now
 
     def _mixture(self) -> str:
         # The same parameter again and again, as from a slider, is no mixture.
-        if self._is_said or not self._refused or set(self._set) <= set(self._refused):
+        if self._is_said or not self._refused or self._set.keys() <= self._refused.keys():
             return ''
         self._is_said = True
         return (

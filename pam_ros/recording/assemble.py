@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
 from pam_ros.recording.of_joint import of_joint
-from pam_ros.recording.outliers import without_outliers
+from pam_ros.recording.outliers import TooManyOutliersError, without_outliers
 from pam_ros.recording.quantities import ANGULAR
 from pam_ros.recording.recording import KINDS, OUTPUTS, Recording, interpolated
 from pam_ros.recording.repeats import without_repeats
@@ -18,6 +18,9 @@ from pam_ros.recording.series import GAP_SECONDS, Series, refuse_backwards
 
 Array = NDArray[np.float64]
 
+# Quantities that become position and velocity.
+AS_POSITION = {angular: linear for linear, angular in ANGULAR.items()}
+AS_POSITION |= {'contraction': 'position'}
 AT_REST = 5e-4  # m (half a millimetre): a position that moves less is constant
 OVERLAP = 0.9  # share of the samples that a signal must cover to be kept if it is not needed
 # Standard deviation in s of the time between the receipt of a command by the recorder and its
@@ -52,13 +55,7 @@ def assemble(
     Raises RecordingError if a signal is missing that the kind needs.
     """
     notes = list(notes)
-    series = {
-        quantity: one
-        if quantity.endswith('pressure_command')
-        else without_outliers(name, without_repeats(one, notes), notes)
-        for quantity, one in series.items()
-        if one.t.size
-    }
+    series, unusable = _measured(series, notes)
     series, names = of_joint(name, series, muscles, notes)
     unit = 'rad' if 'angle' in series else 'm'
     _make_position(name, series, l0, notes)
@@ -71,6 +68,7 @@ def assemble(
     needed = {predicted, 'position'}
     if 'pressure_command' not in series:
         needed.add('pressure')
+    _leave_out(name, series, unusable, needed, notes)
     series = _ascending(name, series, needed, notes)
     main, command = series[predicted], series.get('pressure_command')
     t = _sample_times(name, series, main, needed, notes)
@@ -94,6 +92,43 @@ def assemble(
         _note_stream(recording, notes)
     gaps = tuple(_gaps(recording.t))
     return replace(recording, gaps=gaps, warnings=tuple(notes))
+
+
+def _measured(
+    series: dict[str, Series], notes: list[str]
+) -> tuple[dict[str, Series], dict[str, str]]:
+    """Return the series with those samples only that are measurements.
+
+    The second value has the quantities that are not usable, with the reason.
+    """
+    kept, unusable = {}, {}
+    for signal, one in series.items():
+        if not one.t.size:
+            continue
+        kept[signal] = one
+        quantity = signal.rpartition('.')[2]
+        if quantity == 'pressure_command':
+            continue
+        try:
+            kept[signal] = without_outliers(without_repeats(one, notes), notes)
+        except TooManyOutliersError as error:
+            unusable[AS_POSITION.get(quantity, quantity)] = str(error)
+    return kept, unusable
+
+
+def _leave_out(
+    name: str,
+    series: dict[str, Series],
+    unusable: dict[str, str],
+    needed: set[str],
+    notes: list[str],
+) -> None:
+    """Remove the *unusable* quantities from *series*, with a note; raise if one is needed."""
+    for quantity, reason in unusable.items():
+        if quantity in needed:
+            raise RecordingError(f'{name}: {reason}')
+        series.pop(quantity, None)
+        notes.append(f'{reason}: it is not used')
 
 
 def _sample_times(

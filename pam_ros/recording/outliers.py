@@ -31,10 +31,14 @@ MOST = 0.02  # share of the samples above which a signal is not usable
 NAMED = 3  # outliers whose times are named
 
 
-def without_outliers(name: str, one: Series, notes: list[str]) -> Series:
+class TooManyOutliersError(RecordingError):
+    """A signal has so many outliers that it is not usable."""
+
+
+def without_outliers(one: Series, notes: list[str]) -> Series:
     """Return the samples of *one* that can be measurements, with a note on the others.
 
-    Raises RecordingError, with the *name* of the recording, if too many cannot be.
+    Raises TooManyOutliersError if too many cannot be.
     """
     is_out = outliers(one.value)
     count = int(np.count_nonzero(is_out))
@@ -44,9 +48,9 @@ def without_outliers(name: str, one: Series, notes: list[str]) -> Series:
     times = ', '.join(f'{t:.6g}' for t in at[:NAMED]) + (', ...' if count > NAMED else '')
     what = f'{count} of {is_out.size} samples of {one.source}'
     if count > max(MOST * is_out.size, 1):
-        raise RecordingError(
-            f'{name}: {what} jump away from their neighbours and back, at {times} s: too many for '
-            'a usable signal (a loose contact, or two signals in one column?)'
+        raise TooManyOutliersError(
+            f'{what} jump away from their neighbours and back, at {times} s: too many for a '
+            'usable signal (a loose contact, or two signals in one column?)'
         )
     verb = 'is an outlier and is' if count == 1 else 'are outliers and are'
     notes.append(f'{what} {verb} left out, at {times} s')

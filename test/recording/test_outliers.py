@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
+from pam_ros.recording.assemble import assemble
 from pam_ros.recording.outliers import outliers, without_outliers
 from pam_ros.recording.series import Series
 
@@ -71,15 +72,36 @@ def test_real_events_are_none(value):
 def test_they_are_left_out_counted_and_named_by_their_times():
     one = Series('position_mm', T, with_glitches([500, 900], 0.03))
     notes = []
-    found = without_outliers('log.csv', one, notes)
+    found = without_outliers(one, notes)
     np.testing.assert_array_equal(found.t, np.delete(T, [500, 900]))
     np.testing.assert_array_equal(found.value, np.delete(POSITION, [500, 900]))
     assert notes == ['2 of 3000 samples of position_mm are outliers and are left out, at 5, 9 s']
-    without_outliers('log.csv', Series('x', T, with_glitches([500], 0.03)), notes)
+    without_outliers(Series('x', T, with_glitches([500], 0.03)), notes)
     assert notes[1] == '1 of 3000 samples of x is an outlier and is left out, at 5 s'
 
 
-def test_too_many_are_refused():
-    one = Series('position_mm', T, with_glitches(np.arange(20, 2980, 30), 0.03))
-    with pytest.raises(RecordingError, match=r'log\.csv: 99 of 3000 samples of position_mm jump'):
-        without_outliers('log.csv', one, [])
+SPOILED = np.arange(20, 2980, 30)
+
+
+@pytest.mark.parametrize('unit', ['position_m', 'contraction_fraction'])
+def test_too_many_of_a_signal_that_is_needed_are_refused(unit):
+    quantity = unit.rpartition('_')[0]
+    series = {
+        'pressure_command': Series('u', T, 1e5 * np.sin(T) + 2e5),
+        quantity: Series(unit, T, with_glitches(SPOILED, 0.03)),
+    }
+    with pytest.raises(RecordingError, match=rf'log\.csv: 99 of 3000 samples of {unit} jump'):
+        assemble('log.csv', series, [], l0=0.4)
+
+
+def test_of_another_signal_they_leave_it_out_with_a_note():
+    series = {
+        'pressure_command': Series('u', T, 1e5 * np.sin(T) + 2e5),
+        'position': Series('y', T, POSITION),
+        'velocity': Series('v', T, with_glitches(SPOILED, 0.03)),
+        'pressure': Series('p', T, 1e7 * with_glitches(SPOILED, 0.03)),
+    }
+    found = assemble('log.csv', series, [])
+    assert (found.velocity, found.pressure) == (None, None)
+    assert [note.endswith('it is not used') for note in found.warnings] == [True, True]
+    np.testing.assert_array_equal(found.position, POSITION)
