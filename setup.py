@@ -61,6 +61,7 @@ setup(
         'tqdm',
     ],
     extras_require={
+        'excel': ['openpyxl'],
         'fast': ['numba'],
         'test': [
             'pytest',
@@ -70,6 +71,7 @@ setup(
             'jsonschema',
             'nbclient>=0.10',
             'nbformat>=5.5',
+            'openpyxl',
             'pandas',
             'sybil>=9',
             'urdf-parser-py',

@@ -101,6 +101,16 @@ def _add_recording_options(made: argparse.ArgumentParser) -> None:
         '--mapping', type=Path, metavar='FILE', help='YAML file with such lines below columns:'
     )
     made.add_argument(
+        '--columns',
+        metavar='NAMES',
+        help='names of the columns of CSV files without a line of names, in their order: '
+        't_s,pressure_kPa,-,position_mm; - is a column that is not used',
+    )
+    made.add_argument('--sheet', metavar='NAME', help='sheet of Excel workbooks that have several')
+    made.add_argument(
+        '--variable', metavar='NAME', help='struct or matrix of MATLAB files that have several'
+    )
+    made.add_argument(
         '--kind',
         choices=('free', 'held'),
         help='free: the load moves; held: the length is prescribed (default: from the data)',
@@ -149,7 +159,7 @@ def run(given: argparse.Namespace, command: str) -> str:
     from pam_ros.identification.identify import identify
     from pam_ros.identification.summary import details, last_line
     from pam_ros.recording.inputs import refuse_copies, refuse_idle
-    from pam_ros.recording.mapping import read_mapping
+    from pam_ros.recording.mapping import column_names, read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.recording.warning_list import warning_list
     from pam_ros.report.provenance import provenance
@@ -161,6 +171,7 @@ def run(given: argparse.Namespace, command: str) -> str:
     model = nominal.joint
     uncertain = {**uncertain_values(given.params), **dict(map(_deviation, given.uncertain))}
     mapping = read_mapping(given.column, given.mapping)
+    columns = () if given.columns is None else column_names(given.columns)
     recordings, test = (
         [
             read_recording(
@@ -170,6 +181,9 @@ def run(given: argparse.Namespace, command: str) -> str:
                 kind=given.kind,
                 namespace=given.namespace,
                 muscles=nominal.recorded_muscles,
+                columns=columns,
+                sheet=given.sheet,
+                variable=given.variable,
             )
             for path in paths
         ]

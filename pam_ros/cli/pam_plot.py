@@ -86,7 +86,9 @@ def _run(options: Options) -> None:
     from pam_ros.recording.mapping import read_mapping
 
     assert options.bag is not None
-    found = read(options.bag, options.namespace, read_mapping(options.columns))
+    mapping = read_mapping(options.rules)
+    of_table = (options.columns, options.sheet, options.variable)
+    found = read(options.bag, options.namespace, mapping, *of_table)
     for note in found.notes:
         print(shown(f'{options.bag.name}: {note}'), file=sys.stderr)
     drawn = panels(found.curves, options.unit or found.unit, found.end, COLUMNS)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from pam_ros.errors import PamError
 from pam_ros.plot.panels import UNITS
+from pam_ros.recording.mapping import column_names
 
 PAGE_SECONDS, PNG_SECONDS, WAIT = 20.0, 10.0, 10.0
 SHORTEST_AXIS, LONGEST_AXIS = 0.5, 3600.0  # s
@@ -30,7 +31,10 @@ class Options:
     unit: str
     bag: Path | None
     namespace: str | None
+    rules: tuple[str, ...]
     columns: tuple[str, ...]
+    sheet: str | None
+    variable: str | None
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -75,6 +79,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar='SOURCE=TARGET',
         help='meaning of a column of a CSV file, as for pam_identify',
     )
+    parser.add_argument(
+        '--columns',
+        metavar='NAMES',
+        help='names of the columns of a CSV file without a line of names, as for pam_identify',
+    )
+    parser.add_argument('--sheet', metavar='NAME', help='sheet of a workbook that has several')
+    parser.add_argument(
+        '--variable', metavar='NAME', help='struct or matrix of a MATLAB file that has several'
+    )
 
 
 def checked(given: argparse.Namespace) -> Options:
@@ -94,6 +107,9 @@ def checked(given: argparse.Namespace) -> Options:
         given.bag,
         given.namespace,
         tuple(given.column),
+        () if given.columns is None else column_names(given.columns),
+        given.sheet,
+        given.variable,
     )
     for name, value in (('--seconds', options.seconds), ('--wait', options.wait)):
         if not (isfinite(value) and SHORTEST_AXIS <= value <= LONGEST_AXIS):
@@ -117,7 +133,13 @@ def _refuse_together(given: argparse.Namespace) -> None:
             raise PamError(f'{option} is not allowed with {other}: {reason}')
     if given.wait is not None and given.png is None:
         raise PamError('--wait is for --png: a page waits until it is ended')
-    for option, value in (('--namespace', given.namespace), ('--column', given.column)):
+    for option, value in (
+        ('--namespace', given.namespace),
+        ('--column', given.column),
+        ('--columns', given.columns),
+        ('--sheet', given.sheet),
+        ('--variable', given.variable),
+    ):
         if value and given.bag is None:
             raise PamError(
                 f'{option} is for --bag; a rig that is running is chosen with '

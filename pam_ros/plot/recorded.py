@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The curves of a bag or of a CSV file."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,9 +14,10 @@ from pam_ros.plot.panels import Curves
 from pam_ros.plot.topics import TOPICS, Key, muscles_of, numbers
 from pam_ros.recording.bag.decode import Topic
 from pam_ros.recording.bag.source import BagSource, Message, open_bag
-from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.read import BAG_SUFFIXES
+from pam_ros.recording.series import Series
+from pam_ros.recording.table_file import read_table_file
 
 Array = NDArray[np.float64]
 # Columns of a CSV file by the topic that has the same quantity.
@@ -43,25 +45,41 @@ class RecordedCurves:
     notes: tuple[str, ...]
 
 
-def read(path: Path, namespace: str | None, mapping: ColumnMapping) -> RecordedCurves:
+def read(
+    path: Path,
+    namespace: str | None,
+    mapping: ColumnMapping,
+    columns: Sequence[str] = (),
+    sheet: str | None = None,
+    variable: str | None = None,
+) -> RecordedCurves:
     """Return the curves of the recording at *path*: a rosbag2, one of its files, or a CSV file.
 
     Stamps of a bag are the times at which its recorder received the messages, relative to the
     first one. *namespace* selects one of several rigs in a bag; *mapping* gives the meaning of
-    columns of a CSV file. Raises RecordingError if the recording cannot be read, or if nothing can
-    be drawn.
+    columns of a CSV file, and *columns* are their names if the file has none; *sheet* is one
+    of a workbook, and *variable* one of a MATLAB file. Raises RecordingError if the recording
+    cannot be read, or if nothing can be drawn.
     """
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
     if path.is_dir() or path.suffix in BAG_SUFFIXES:
-        if any(mapping):
-            raise RecordingError(f'--column is for CSV files, and {path} is a bag: leave it out')
+        for option, is_given in (
+            ('--column', any(mapping)),
+            ('--columns', bool(columns)),
+            ('--sheet', sheet is not None),
+            ('--variable', variable is not None),
+        ):
+            if is_given:
+                raise RecordingError(
+                    f'{option} is for CSV files, and {path} is a bag: leave it out'
+                )
         return _read_bag(path, namespace)
     if not path.is_file():
         raise RecordingError(f'recording {path} is neither a file nor a folder')
     if namespace is not None:
         raise RecordingError(f'--namespace is for bags, and {path} is a CSV file: leave it out')
-    return _read_csv(path, mapping)
+    return _read_table(path, read_table_file(path, mapping, columns, sheet, variable))
 
 
 # Bags --------------------------------------------------------------------------------------
@@ -141,8 +159,10 @@ def _finite(t: Array, value: Array) -> tuple[Array, Array]:
 # CSV files ---------------------------------------------------------------------------------
 
 
-def _read_csv(path: Path, mapping: ColumnMapping) -> RecordedCurves:
-    series, notes, header = read_csv(path, mapping)
+def _read_table(
+    path: Path, table: tuple[dict[str, Series], list[str], list[str]]
+) -> RecordedCurves:
+    series, notes, header = table
     muscles = tuple(dict.fromkeys(name.partition('.')[0] for name in series if '.' in name))
     drawn = {key: one for name, one in series.items() if (key := _key(name, muscles))}
     if not drawn:

@@ -67,6 +67,11 @@ def to_series(
     values = dict(values)
     t = values.pop('time')
     known = np.isfinite(t)
+    if not known.any():
+        raise RecordingError(
+            f'{name}: column {header[columns["time"][0]]!r} is the time, and it is empty: save '
+            'the recording with the time of each row'
+        )
     if not known.all():
         raise RecordingError(f'{name}, {row(int(np.argmin(known)))}: a row without a time')
     refuse_backwards(t, f'{name}: {header[columns["time"][0]]}')

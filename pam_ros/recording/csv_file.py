@@ -14,23 +14,29 @@ from pam_ros.arguments import as_path, instance
 from pam_ros.errors import RecordingError
 from pam_ros.recording.columns import chosen, to_series
 from pam_ros.recording.mapping import ColumnMapping, Meaning
-from pam_ros.recording.number_format import UnreadableCellError, numbers
 from pam_ros.recording.recording import OUTPUTS, Recording
 from pam_ros.recording.series import Series
-from pam_ros.recording.text_table import TextTable, read_table
+from pam_ros.recording.table.found import Table
+from pam_ros.recording.table.number_format import UnreadableCellError, numbers
+from pam_ros.recording.table.text_table import read_table
+from pam_ros.recording.table.time_columns import with_times
 
 Array = NDArray[np.float64]
 
 
-def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], list[str], list[str]]:
+def read_csv(
+    path: Path, mapping: ColumnMapping, columns: Sequence[str] = ()
+) -> tuple[dict[str, Series], list[str], list[str]]:
     """Return (signal -> series in SI, warnings, names of the columns) of a CSV file.
 
     A signal is a quantity, such as ``pressure``, or a quantity of one muscle:
     ``agonist.pressure``.
 
-    The first line that is not a comment gives the names of the columns. Cells are separated by
-    commas, semicolons or tabs; a decimal comma, and marks of thousands, are found for each column
-    (see :mod:`pam_ros.recording.number_format`).
+    The line above the rows of numbers gives the names of the columns, unless *columns* are given;
+    it may be followed by a row of units. Lines before and after the table are left out with a
+    warning (see ``pam_ros.recording.table``). Cells are separated by commas, semicolons or
+    tabs; a decimal comma, and marks of thousands, are found for each column (see
+    :mod:`pam_ros.recording.table.number_format`).
 
     An empty cell (or NaN) means that no sample was taken: columns may have different rates. A
     stretch of empty cells is refused, as a sensor that failed, if it is longer than ten sampling
@@ -39,15 +45,28 @@ def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], lis
 
     Raises RecordingError with the line and the column of a cell that cannot be read.
     """
-    table = read_table(path)
-    mapping.need(table.header, path.name)
-    columns, notes = chosen(path.name, table.header, mapping)
-    values = _values(path, table, columns)
+    return series_of_table(path.name, read_table(path, mapping, columns), mapping)
+
+
+def series_of_table(
+    name: str, table: Table, mapping: ColumnMapping
+) -> tuple[dict[str, Series], list[str], list[str]]:
+    """Return (signal -> series in SI, warnings, names of the columns) of a table of cells.
+
+    *name* is that of its file. Raises RecordingError as :func:`read_csv`.
+    """
+    mapping.need(table.header, name)
     lines = table.lines
+    try:
+        mapping, times, clock_notes = with_times(name, table, mapping)
+        found, notes = chosen(name, table.header, mapping)
+        values = _values(name, table, found, times)
+    except UnreadableCellError as error:
+        raise RecordingError(f'{name}, line {lines[error.row]}: {error}') from None
     series, notes = to_series(
-        path.name, table.header, mapping, columns, values, notes, lambda i: f'line {lines[i]}'
+        name, table.header, mapping, found, values, notes, lambda i: f'line {lines[i]}'
     )
-    return series, table.notes + notes, table.header
+    return series, table.notes + clock_notes + notes, table.header
 
 
 def write_csv(recording: Recording, path: str | Path) -> None:
@@ -104,17 +123,19 @@ def _spread(stamps: Array, t: Array, value: Array) -> list[str]:
 
 
 def _values(
-    path: Path, table: TextTable, columns: dict[str, tuple[int, Meaning]]
+    name: str,
+    table: Table,
+    columns: dict[str, tuple[int, Meaning]],
+    times: dict[str, Array],
 ) -> dict[str, Array]:
-    """Return signal -> its column in SI, NaN for an empty cell."""
+    """Return signal -> its column in SI, NaN for an empty cell; *times* are those of columns."""
+    named = {table.header[index]: index for index, _ in columns.values()}
     cells = {
-        table.header[index]: [row[index] for row in table.rows] for index, _ in columns.values()
+        column: [row[index] for row in table.rows]
+        for column, index in named.items()
+        if column not in times
     }
-    try:
-        found = numbers(path.name, cells)
-    except UnreadableCellError as error:
-        line = table.lines[error.row]
-        raise RecordingError(f'{path.name}, line {line}: {error}') from None
+    found = numbers(name, cells) | times
     values = {}
     for signal, (index, meaning) in columns.items():
         factor, offset = meaning.to_si

@@ -20,6 +20,7 @@ from pam_ros.plain_yaml import read_yaml
 from pam_ros.recording.quantities import QUANTITIES, Target, target_of
 
 IGNORE = 'ignore'
+UNUSED = '-'  # in a list of the names of columns: a column that is not used
 _NUMBER = r'[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?'
 _RULE = re.compile(
     rf'(?P<target>(?:[A-Za-z]\w*\.)?[^\W\d][\w/°]*)\s*(?:\*\s*(?P<scale>{_NUMBER}))?\s*'
@@ -97,6 +98,20 @@ def read_mapping(rules: Sequence[str] = (), file: str | Path | None = None) -> C
             )
         meanings[source.strip()] = _meaning(source.strip(), text)
     return ColumnMapping(meanings)
+
+
+def column_names(text: str) -> tuple[str, ...]:
+    """Return the names in a text such as ``t_s,-,position_mm``, in their order.
+
+    Raises RecordingError if one is empty.
+    """
+    names = tuple(name.strip() for name in text.split(','))
+    if not all(names):
+        raise RecordingError(
+            f'--columns {text} has an empty name: give a name for each column, and {UNUSED} for '
+            'one that is not used, such as t_s,pressure_kPa,-,position_mm'
+        )
+    return names
 
 
 def _meaning(source: str, text: str) -> Meaning | None:

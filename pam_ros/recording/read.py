@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Read any recording: a rosbag2 directory, one of its files, a CSV file, or a DataFrame."""
+"""Read any recording: a rosbag2 directory, one of its files, a table file, or a DataFrame."""
 
 import hashlib
 from collections.abc import Sequence
@@ -13,7 +13,6 @@ from pam_ros.errors import RecordingError, printable, shown
 from pam_ros.recording.assemble import MissingSignalError, assemble
 from pam_ros.recording.bag.read import bag_files, read_bag
 from pam_ros.recording.bounds import Bounded, Bounds, bounds_of
-from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.dataframe import series_of_frame
 from pam_ros.recording.direction import with_contraction_positive, with_tension_positive
 from pam_ros.recording.likely import found_columns
@@ -21,6 +20,7 @@ from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.quality import check
 from pam_ros.recording.recording import Recording
 from pam_ros.recording.series import Series
+from pam_ros.recording.table_file import read_table_file
 
 BAG_SUFFIXES = ('.mcap', '.db3')
 
@@ -33,24 +33,34 @@ def read_recording(
     kind: str | None = None,
     namespace: str | None = None,
     muscles: Sequence[str] = (),
+    columns: Sequence[str] = (),
+    sheet: str | None = None,
+    variable: str | None = None,
 ) -> Recording:
     """Read the recording at *path* in SI, and check it.
 
-    *path* is a rosbag2 directory, one of its files, or a CSV file. *joint* is the Joint that was
-    recorded: its lengths and pressures are needed to read a contraction, and show a signal that is
-    in another unit. *mapping* gives the meaning of columns or topics with other names
-    (:func:`pam_ros.read_mapping`). *kind* is ``free`` for a free load or ``held`` for a prescribed
-    length (found from the data if None). *namespace* selects one of several rigs in a bag.
+    *path* is a rosbag2 directory, one of its files, a CSV file, an Excel workbook (.xlsx), or a
+    MATLAB file (.mat) of version 7 or before.
+    *joint* is the Joint that was recorded: its lengths and pressures are needed to read a
+    contraction, and show a signal that is in another unit. *mapping* gives the meaning of columns
+    or topics with other names (:func:`pam_ros.read_mapping`). *kind* is ``free`` for a free load
+    or ``held`` for a prescribed length (found from the data if None). *namespace* selects one of
+    several rigs in a bag.
 
     *muscles* are the names of the muscles of a joint that has several, in their order (if empty,
     the order in which they appear in a CSV file). Columns that belong to a muscle have its name
     before a dot: ``agonist.pressure_command_kPa``; in a bag, arrays have a number for each muscle.
+
+    *columns* are the names of the columns of a CSV file, in their order, if the file has none, or
+    if its own are to be replaced; ``-`` is a column that is not used. *sheet* is the name of the
+    sheet of a workbook that has several, *variable* that of the struct or matrix of a MATLAB file.
 
     Raises RecordingError, with a sentence for the user, for a recording that cannot be used or is
     of another joint, and ParameterError for arguments of a wrong type.
     """
     path = as_path('path', path, 'the path of a bag or a CSV file')
     bounds, mapping, muscles = _arguments(joint, mapping, muscles)
+    columns = sequence('columns', columns, str, "the name of a column, such as 't_s'")
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
     if not (path.is_dir() or path.is_file()):
@@ -59,6 +69,13 @@ def read_recording(
         raise RecordingError(f'recording {path} is neither a file nor a folder')
     header: list[str] = []
     if path.is_dir() or path.suffix in BAG_SUFFIXES:
+        for what, is_given in (
+            ('names of columns are', columns),
+            ('a sheet is', sheet),
+            ('a variable is', variable),
+        ):
+            if is_given:
+                raise RecordingError(f'{what} given, but recording {path} is a bag: leave it out')
         files = bag_files(path)
         series, notes = read_bag(path, mapping, namespace, muscles, bounds.unit)
     elif namespace is not None:
@@ -68,7 +85,7 @@ def read_recording(
         )
     else:
         files = [path]
-        series, notes, header = read_csv(path, mapping)
+        series, notes, header = read_table_file(path, mapping, columns, sheet, variable)
     name = printable(path.name or str(path))
     recording = _assembled(name, series, notes, header, mapping, bounds, kind, muscles)
     return replace(recording, digest=_digest(files))

@@ -153,6 +153,13 @@ def test_residual_file_gives_the_errors_of_the_report(found):
         (('friction.csv', *DECLARED, '--set', 'mass=-3'), 'mass = -3.0 is not allowed'),
         (('friction.csv', *DECLARED, '--column', 'position_m=weight_kg'), 'is not understood'),
         (('friction.csv', *DECLARED, '--mapping', 'absent.yaml'), 'absent.yaml cannot be read'),
+        (
+            ('friction.csv', *DECLARED, '--columns', 't_s,force_N'),
+            'and 2 names of columns are given',
+        ),
+        (('friction.csv', *DECLARED, '--columns', 't_s,,force_N'), 'has an empty name'),
+        (('friction.csv', *DECLARED, '--variable', 'a'), 'friction.csv is not a MATLAB file'),
+        (('friction.csv', *DECLARED, '--sheet', 'a'), 'friction.csv is not an Excel workbook'),
         (('friction.csv', *DECLARED, '--kind', 'held'), 'has no force'),
         (('friction.csv', *DECLARED, '--kind', 'loose'), 'invalid choice'),
         (('friction.csv', *DECLARED, '--test', 'friction.csv'), 'give each recording once'),

@@ -54,7 +54,7 @@ ROS = {
 }
 # What the other rooms may import in addition to themselves and Python's own library.
 ALLOWED = {
-    *('jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'rosbags', 'scipy'),
+    *('jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'openpyxl', 'rosbags', 'scipy'),
     *('tqdm', 'yaml'),
     'pam_ros',
 }

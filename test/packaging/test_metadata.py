@@ -22,6 +22,7 @@ IMPORTED_AS = {
     'python3-matplotlib': 'matplotlib',
     'python3-numba': 'numba',
     'python3-numpy': 'numpy',
+    'python3-openpyxl': 'openpyxl',
     'python3-rosbags-pip': 'rosbags',
     'python3-scipy': 'scipy',
     'python3-tqdm': 'tqdm',

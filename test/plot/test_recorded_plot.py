@@ -102,12 +102,14 @@ def test_one_of_several_rigs_is_chosen(tmp_path):
         read(bag, 'middle', NONE)
 
 
-def test_a_csv_file(tmp_path):
+@pytest.mark.parametrize('is_headless', [False, True])
+def test_a_csv_file(tmp_path, is_headless):
     file = tmp_path / 'rig.csv'
     rows = [f'{0.01 * k:.2f},{k},{k}.5,2.5,3.5' for k in range(100)]
     head = 't_s,position_mm,adc,flexor.pressure_kPa,extensor.pressure_kPa'
-    file.write_text('\n'.join([head, *rows, '']))
-    found = read(file, None, read_mapping(['adc=force_N*2']))
+    file.write_text('\n'.join([*([] if is_headless else [head]), *rows, '']))
+    names = head.split(',') if is_headless else ()
+    found = read(file, None, read_mapping(['adc=force_N*2']), names)
     last = {key: value[-1] for key, (_, value) in found.curves.samples.items()}
     assert last == pytest.approx(
         {
@@ -176,6 +178,9 @@ def test_bad_input_ends_it_with_a_sentence(tmp_path):
         (['--bag', table, '--png', out], 'it has t_s, adc'),
         (['--bag', table, '--namespace', 'left'], '--namespace is for bags'),
         (['--bag', bag, '--column', 'adc=force_N'], '--column is for CSV files'),
+        (['--bag', bag, '--columns', 't_s,force_N'], '--columns is for CSV files'),
+        (['--bag', table, '--variable', 'a'], 'table.csv is not a MATLAB file'),
+        (['--bag', table, '--sheet', 'a'], 'table.csv is not an Excel workbook'),
         (['--bag', bag, '--png', tmp_path / 'rig.pdf'], 'give a name that ends in .png'),
         (['--bag', bag, '--png', tmp_path / 'no' / 'rig.png'], 'does not exist'),
         (['--bag', bag, '--seconds', '3'], '--seconds is not allowed with --bag'),

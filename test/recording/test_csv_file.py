@@ -148,7 +148,6 @@ def test_a_stretch_of_missing_commands_in_a_full_column_is_refused(tmp_path):
         (PLAIN.replace('_kPa', ''), ['pressure_command', 'no unit']),
         (PLAIN.splitlines()[0] + '\n', ['the names of columns, and no row']),
         (PLAIN.replace(',', ' '), ['has one column', 'separate them by commas']),
-        ('Rig: bench 1\n' + PLAIN, ["one column, 'Rig: bench 1'", 'the first line that is not a']),
         (PLAIN.replace('_kPa', '_inAq'), ['inAq', 'bar', 'pressure_command_Pa*FACTOR']),
         (PLAIN.replace('2.5', 'bad'), ['line 3', 'position_mm', "'bad'", 'not a number']),
         (PLAIN.replace('2.5', '1.2.3'), ['line 3', "'1.2.3'"]),

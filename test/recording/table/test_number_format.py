@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.number_format import UnreadableCellError, is_number, numbers
+from pam_ros.recording.table.number_format import UnreadableCellError, is_number, numbers
 
 NBSP, THIN, QUOTE = (
     '\N{NO-BREAK SPACE}',
@@ -71,6 +71,8 @@ def test_a_column_with_two_readings_is_refused_with_both():
         (['1,2,3', '1'], 0),
         (['12 34', '1'], 0),
         (['5 mm', '1'], 0),
+        (['1,5', '-'], 1),
+        (['1,5', '+NA'], 1),
     ],
 )
 def test_a_cell_that_is_no_number_is_named(cells, row):

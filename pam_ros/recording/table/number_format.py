@@ -21,7 +21,7 @@ EMPTY = frozenset(('', 'nan', 'na', 'n/a', 'null', 'none'))
 # Marks of thousands in both: spaces, also those that do not break a line, and apostrophes.
 _SPACES = " '\u2019\u00a0\u202f"
 GROUP = 3  # digits between two marks of thousands
-_SPECIAL = r'[+-]?(?:nan|na|n/a|null|none|inf|infinity)?'
+_SPECIAL = r'(?:na|n/a|null|none|[+-]?(?:nan|inf|infinity))?'
 
 
 def _pattern(decimal: str, thousands: str) -> str:
@@ -41,11 +41,11 @@ _NOT = {
 
 
 class UnreadableCellError(RecordingError):
-    """A cell is not a number; ``row`` is its index."""
+    """A cell is not a number, or not a time; ``row`` is its index."""
 
-    def __init__(self, row: int, column: str, cell: str) -> None:
-        """Refuse the *cell* of this *row* in this *column*."""
-        super().__init__(f'{column} = {cell!r} is not a number')
+    def __init__(self, row: int, column: str, cell: str, what: str = 'a number') -> None:
+        """Refuse the *cell* of this *row* in this *column*, which is not *what*."""
+        super().__init__(f'{column} = {cell!r} is not {what}')
         self.row = row
 
 
