@@ -59,4 +59,5 @@ from pam_ros.rig.transmissions import Transmission as Transmission
 from pam_ros.rig.transmissions import TransmissionEquations as TransmissionEquations
 from pam_ros.settings.load import load_joint as load_joint
 from pam_ros.settings.load import load_muscle as load_muscle
+from pam_ros.settings.recording_list import read_recordings as read_recordings
 from pam_ros.version import __version__ as __version__

@@ -14,11 +14,13 @@ import argparse
 import shlex
 import signal
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
 from pam_ros.cli.help_text import help_text
+from pam_ros.cli.set_order import values_of_files
 from pam_ros.errors import PamError, printable, shown
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.processes.prompt_end import end_promptly
@@ -36,8 +38,9 @@ class _Parser(argparse.ArgumentParser):
         self.exit(BAD_INPUT, f'{self.prog}: {shown(message)} (see --help)\n')
 
 
-def parser() -> argparse.ArgumentParser:
-    """Return the parser of the command line."""
+def parser(*, is_part: bool = False) -> argparse.ArgumentParser:
+    """Return the parser of the command line, or of its first part, which may lack anything."""
+    some = '*' if is_part else '+'
     made = _Parser(
         prog='pam_identify',
         description=help_text(__doc__),
@@ -45,11 +48,14 @@ def parser() -> argparse.ArgumentParser:
     )
     made.add_argument('--version', action='version', version=VERSION_LINE, help=VERSION_HELP)
     made.add_argument(
-        'recordings', nargs='+', metavar='RECORDING', help='rosbag2 folder or CSV file to fit'
+        'recordings',
+        nargs=some,
+        metavar='RECORDING',
+        help='rosbag2 folder or CSV file to fit, or a YAML file with a list of them',
     )
     made.add_argument(
         '--params',
-        required=True,
+        required=not is_part,
         metavar='FILE',
         help='the nominal model: a parameter file of pam_sim, or a muscle of this package',
     )
@@ -58,7 +64,8 @@ def parser() -> argparse.ArgumentParser:
         action='append',
         default=[],
         metavar='NAME=VALUE',
-        help='override one of its parameters, such as mass=20; may be repeated',
+        help='override one of its parameters, such as mass=20; may be repeated, and a number of '
+        'the load also between recordings: each has the last value before it',
     )
     made.add_argument(
         '--uncertain',
@@ -68,23 +75,23 @@ def parser() -> argparse.ArgumentParser:
         help='standard deviation of a nominal value: inertia=50%%, or in its unit, mass=0.2; the '
         'value is then fitted as well; may be repeated',
     )
-    _add_recording_options(made)
+    _add_recording_options(made, some)
     made.add_argument(
         '--verbose',
         action='store_true',
         help='also print how the fits ended and every effect that was tried',
     )
     made.add_argument(
-        '--out', type=Path, required=True, metavar='DIR', help='folder for the report'
+        '--out', type=Path, required=not is_part, metavar='DIR', help='folder for the report'
     )
     return made
 
 
-def _add_recording_options(made: argparse.ArgumentParser) -> None:
+def _add_recording_options(made: argparse.ArgumentParser, some: str) -> None:
     """Add the options for which recordings are read, and how."""
     made.add_argument(
         '--test',
-        nargs='+',
+        nargs=some,
         action='extend',
         default=[],
         metavar='RECORDING',
@@ -116,6 +123,13 @@ def _add_recording_options(made: argparse.ArgumentParser) -> None:
         help='free: the load moves; held: the length is prescribed (default: from the data)',
     )
     made.add_argument('--namespace', help='namespace of the rig, if bags contain several')
+    made.add_argument(
+        '--time',
+        choices=('header', 'received'),
+        default='header',
+        help='times of messages in bags: stamps of headers, where there are some, or times of '
+        'receipt (default: header)',
+    )
 
 
 class ProgressBar:
@@ -160,34 +174,29 @@ def run(given: argparse.Namespace, command: str) -> str:
     from pam_ros.identification.summary import details, last_line
     from pam_ros.recording.inputs import refuse_copies, refuse_idle
     from pam_ros.recording.mapping import column_names, read_mapping
-    from pam_ros.recording.read import read_recording
     from pam_ros.recording.warning_list import warning_list
     from pam_ros.report.provenance import provenance
     from pam_ros.report.write import check_folder, write_report
-    from pam_ros.settings.nominal import nominal_joint, uncertain_values
+    from pam_ros.settings.nominal import nominal_joint, package_muscles, uncertain_values
+    from pam_ros.settings.recording_list import READING, recording_files
 
     check_folder(given.out)
     nominal = nominal_joint(given.params, given.set)
     model = nominal.joint
     uncertain = {**uncertain_values(given.params), **dict(map(_deviation, given.uncertain))}
     mapping = read_mapping(given.column, given.mapping)
-    columns = () if given.columns is None else column_names(given.columns)
+    reading = {
+        'muscles': nominal.recorded_muscles,
+        'columns': () if given.columns is None else column_names(given.columns),
+        **{name: getattr(given, name) for name in READING},
+    }
     recordings, test = (
         [
-            read_recording(
-                path,
-                model,
-                mapping=mapping,
-                kind=given.kind,
-                namespace=given.namespace,
-                muscles=nominal.recorded_muscles,
-                columns=columns,
-                sheet=given.sheet,
-                variable=given.variable,
-            )
-            for path in paths
+            file.read(model, mapping, **reading)
+            for path, values in zip(paths, own, strict=True)
+            for file in recording_files(Path(path), _numbers(values))
         ]
-        for paths in (given.recordings, given.test)
+        for paths, own in zip((given.recordings, given.test), given.values, strict=True)
     )
     require_joint([*recordings, *test], model)
     refuse_idle(recordings)  # here already, so that no warning is printed before the error
@@ -201,7 +210,13 @@ def run(given: argparse.Namespace, command: str) -> str:
     try:
         with end_promptly(sentence=STOPPED):  # kernels are compiled here
             answer = identify(
-                model, recordings, test, progress, uncertain=uncertain, warn=progress.say
+                model,
+                recordings,
+                test,
+                progress,
+                uncertain=uncertain,
+                warn=progress.say,
+                muscles=package_muscles(),
             )
         progress(1.0, 'writing the report')
         write_report(given.out, answer, source)
@@ -210,6 +225,20 @@ def run(given: argparse.Namespace, command: str) -> str:
     end = f'{last_line(answer)}; see {given.out / "report.html"}'
     texts = [answer.summary(), *([details(answer)] if given.verbose else []), end]
     return '\n'.join(map(printable, '\n\n'.join(texts).splitlines()))
+
+
+def _numbers(values: Mapping[str, str]) -> dict[str, float]:
+    """Return the numbers that ``--set`` gives to some of the recordings."""
+    found = {}
+    for name, text in values.items():
+        try:
+            found[name] = float(text)
+        except ValueError:
+            raise PamError(
+                f'--set {shown(name)}={shown(text)} between recordings is not allowed: give a '
+                'number'
+            ) from None
+    return found
 
 
 def _deviation(text: str) -> tuple[str, str]:
@@ -227,7 +256,8 @@ def main() -> None:
     signal.signal(signal.SIGTERM, _terminate)
     guard_outputs()
     try:
-        given = parser().parse_args()
+        given = parser().parse_intermixed_args()
+        given.values = values_of_files(sys.argv[1:], parser)
         command = shlex.join(['pam_identify', *sys.argv[1:]])
         print(run(given, command))
     except PamError as error:

@@ -16,6 +16,7 @@ from pam_ros.identification.data.segment import (
     require_joint,
     segments_of,
 )
+from pam_ros.identification.fit.of_rig import joint_with
 from pam_ros.identification.result import Conclusion
 from pam_ros.identification.summary import last_line, summary
 from pam_ros.identification.wording import scale_for
@@ -81,11 +82,13 @@ class Identification(Conclusion):
         instance('recording', recording, Recording, 'a Recording')
         joint = self.joint
         require_joint([recording], joint)
+        usable = checked(recording, joint)
+        joint = joint_with(joint, recording.numbers)
         if not any(_are_same(recording, one) for one in self.recordings):
             joint = _from_start(joint)
         step = min(STEP, *(longest_step(stage) for _, stage in joint.stages))
         runs = []
-        for part in segments_of([checked(recording, joint)]):
+        for part in segments_of([usable]):
             if isinstance(part, HeldSegment):
                 held = part.pressure, part.position, part.velocity
                 runs.append(simulate_held(_from_start(joint), part.t, *held))

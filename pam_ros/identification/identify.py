@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import fields, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -25,22 +26,25 @@ from pam_ros.identification.data.segment import (
     require_one_kind,
     segments_of,
 )
+from pam_ros.identification.far_constants import of_constants
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.uncertain import spread_unknowns
 from pam_ros.identification.fit.undetermined import undetermined_after, undetermined_before
 from pam_ros.identification.identification import Identification
+from pam_ros.identification.outcome import Given, Outcome, search_recordings
 from pam_ros.identification.result import Conclusion, Estimate, Finding, Stage, Verdict
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import FinalFits, fit_finally
 from pam_ros.identification.search.levels import apart
 from pam_ros.identification.search.onset import (
     OnsetEstimate,
-    estimate_onset,
     estimate_onset_after,
-    find_late_effects,
-    shares_after,
 )
-from pam_ros.identification.search.search import Progress, Search, alternatives, find_effects
+from pam_ros.identification.search.search import (
+    Progress,
+    Search,
+    alternatives,
+)
 from pam_ros.identification.search.setting import Setting, transfer
 from pam_ros.identification.search.stages import at_place, onset_of, stages
 from pam_ros.identification.search.table import candidates, is_instead_of_constants, reason_for
@@ -51,9 +55,9 @@ from pam_ros.identification.verdict import (
     of_problem,
     of_unused,
     sentence,
-    too_little,
     verdict,
 )
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.inputs import driving, refuse_copies, refuse_idle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
@@ -86,6 +90,7 @@ def identify(
     *,
     uncertain: Mapping[str, float | str] | None = None,
     warn: Callable[[str], object] | None = None,
+    muscles: Mapping[str, Muscle] | None = None,
 ) -> Identification:
     """Identify the effects of the model's library that *recordings* show beyond *model*.
 
@@ -97,45 +102,67 @@ def identify(
 
     *uncertain* are standard deviations of nominal values by the names of parameters, such as
     ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Numbers
-    of load, transmission and mounting that are not in it keep their nominal values.
+    of load, transmission and mounting that are not in it keep their nominal values. *muscles* are
+    other muscles by name, one of which may have been recorded instead of the nominal one: if the
+    model follows the recordings only with one of them, the result names it.
 
     Raises RecordingError if there are no recordings, if two are the same, if they do not fit
     together, have no output, cannot be right (in another unit, for example) or are too short for
     any fit. Raises ParameterError for objects of another type, for a model with an onset and for
     an uncertain parameter that the model does not have.
     """
-    recordings, test = _checked(model, recordings, test)
     uncertain = {} if uncertain is None else uncertain
-    spread_unknowns(model, recordings[0].muscles, uncertain)  # raises errors before the long fit
-    refuse_idle(recordings)
-    tests = segments_of(test)  # raises errors before the long fit, too
+    recordings, test = _checked(model, recordings, test, uncertain)
     notify: Progress = progress or (lambda share, text: None)
     # With test recordings, no part of the others is needed to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
-    parts = _parts(recordings, shares)
     with ThreadPoolExecutor(min(os.cpu_count() or 1, THREADS)) as pool:
-        muscles = recordings[0].muscles
-        setting = Setting(model, parts, CRITERIA, BUDGET, pool, muscles, uncertain)
+        setting_of = partial(_setting, shares, pool, uncertain)
+        setting = setting_of(model, recordings)
         for text in undetermined_before(setting.problem, setting.noise, pool):
             if warn is not None:
                 warn(text)
-        lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
-        since = None if lacking else estimate_onset(setting)
-        search = _search(setting, since, recordings, shares, notify)
+        given = Given(tuple(recordings), tuple(test), shares)
+        outcome = search_recordings(setting, given, setting_of, muscles or {}, notify)
         notify(0.9, 'fitting the chosen models in full')
-        ends = fit_finally(search)
-        three = stages(ends, search, tests)
-        decision = _decision(search, three, lacking, since)
-        conclusion = _conclusion(decision, search, ends, three, tests, recordings, test)
+        ends = fit_finally(outcome.search)
+        tests = segments_of(outcome.given.test)
+        three = stages(ends, outcome.search, tests)
+        decision = _decision(outcome, three)
+        conclusion = _conclusion(decision, outcome, ends, three, tests)
     notify(1.0, 'done')
-    following = next_experiment(conclusion, model)
+    # Another statement about the same recordings may help more than another recording.
+    following = outcome.remedy or next_experiment(conclusion, model)
     return Identification(
         **{field.name: getattr(conclusion, field.name) for field in fields(Conclusion)},
-        sentence=sentence(conclusion, lacking, decision.explaining),
+        sentence=sentence(conclusion, outcome.lacking, decision.explaining),
         next_experiment=following.text,
         next_command=following.command,
-        warnings=_warnings([*recordings, *test], conclusion, ends.augmented),
+        warnings=(*outcome.clocks, *_warnings(outcome.given, conclusion, ends.augmented)),
     )
+
+
+def _refuse_stated(recordings: Sequence[Recording], uncertain: Mapping[str, object]) -> None:
+    """Raise RecordingError for an *uncertain* number of the rig that a recording states."""
+    for recording in recordings:
+        for name in recording.numbers:
+            if name in uncertain:
+                raise RecordingError(
+                    f'recording {recording.name} states {name} = {recording.numbers[name]:g}, and '
+                    f'{name} is uncertain: give one of the two'
+                )
+
+
+def _setting(
+    shares: tuple[float, float],
+    pool: Executor,
+    uncertain: Mapping[str, float | str],
+    joint: Joint,
+    recordings: Sequence[Recording],
+) -> Setting:
+    """Return the setting of a search in *recordings* of *joint*."""
+    parts, muscles = _parts(recordings, shares), recordings[0].muscles
+    return Setting(joint, parts, CRITERIA, BUDGET, pool, muscles, uncertain)
 
 
 def _parts(recordings: Sequence[Recording], shares: tuple[float, float]) -> list[Part]:
@@ -149,25 +176,9 @@ def _parts(recordings: Sequence[Recording], shares: tuple[float, float]) -> list
     return parts
 
 
-def _search(
-    setting: Setting,
-    since: OnsetEstimate | None,
-    recordings: Sequence[Recording],
-    shares: tuple[float, float],
-    notify: Progress,
-) -> Search:
-    """Search for effects; for those that begin *since* then, in the parts after that time."""
-    later = since and shares_after(since, setting.parts, shares, CRITERIA.duration)
-    if not (since and later):
-        return find_effects(setting, notify)
-    late = replace(setting, parts=parts_of(recordings, *later), onset=since.time)
-    return find_late_effects(setting, late, notify)
-
-
-def _warnings(
-    recordings: Sequence[Recording], conclusion: Conclusion, augmented: Solution
-) -> tuple[str, ...]:
+def _warnings(given: Given, conclusion: Conclusion, augmented: Solution) -> tuple[str, ...]:
     """Return the warnings about all recordings and about the result."""
+    recordings = (*given.recordings, *given.test)
     final = conclusion.stages[2].parameters
     return (
         *(text for recording in recordings for text in recording.warnings),
@@ -176,7 +187,8 @@ def _warnings(
         *of_absolute_pressures(final, driving(recordings[0])[0].quantity),
         *of_command_times(conclusion),
         *of_unused(recordings),
-        *of_problem(conclusion.stages[2].problem),
+        *of_constants(augmented, conclusion),
+        *of_problem('' if conclusion.doubt else conclusion.stages[2].problem),
     )
 
 
@@ -184,8 +196,9 @@ def _checked(
     model: Joint,
     recordings: Recording | Sequence[Recording],
     test: Recording | Sequence[Recording],
+    uncertain: Mapping[str, float | str],
 ) -> tuple[list[Recording], list[Recording]]:
-    """Return the recordings and those that test, checked alone and with each other."""
+    """Return the recordings and the tests, checked alone, together and with *uncertain*."""
     refuse_onsets(instance('model', model, Joint, 'a Joint'), 'a nominal joint')
     fitted, tested = _sequence('recordings', recordings), _sequence('test', test)
     if not fitted:
@@ -194,6 +207,10 @@ def _checked(
     require_joint([*fitted, *tested], model)
     found = [[checked(one, model) for one in given] for given in (fitted, tested)]
     refuse_copies([*found[0], *found[1]])
+    spread_unknowns(model, fitted[0].muscles, uncertain)
+    _refuse_stated([*fitted, *tested], uncertain)
+    refuse_idle(found[0])
+    segments_of(found[1])
     return found[0], found[1]
 
 
@@ -215,14 +232,10 @@ class _Decision(NamedTuple):
     explaining: tuple[str, ...]
 
 
-def _decision(
-    search: Search, three: Sequence[Stage], lacking: str, since: OnsetEstimate | None
-) -> _Decision:
-    """Return the verdict of a search; *since* is the time from which the re-tuned model fails.
-
-    *lacking* is the reason why the data cannot support a verdict, '' if they can.
-    """
-    if lacking:
+def _decision(outcome: Outcome, three: Sequence[Stage]) -> _Decision:
+    """Return the verdict of a search."""
+    search, since = outcome.search, outcome.since
+    if outcome.lacking:
         return _Decision(Verdict.INSUFFICIENT_DATA, None, ())
     name = verdict(search, *(stage.held_error for stage in three))
     is_open = name == Verdict.UNEXPLAINED_STRUCTURE
@@ -236,14 +249,13 @@ def _decision(
 
 def _conclusion(
     decision: _Decision,
-    search: Search,
+    outcome: Outcome,
     ends: FinalFits,
     three: tuple[Stage, Stage, Stage],
     tests: Sequence[Segment],
-    recordings: Sequence[Recording],
-    test: Sequence[Recording],
 ) -> Conclusion:
     """Return the numbers of an identification, with its verdict."""
+    search = outcome.search
     noise = _least(three, ends.parts, search.setting.pool)
     is_found = decision.verdict == Verdict.EFFECT_FOUND
     first = ends.parts[0].segment
@@ -258,10 +270,11 @@ def _conclusion(
         structure=_structure(ends, search, noise.sigma),
         segments=tuple(replace(part.segment, fit=part.known) for part in ends.parts),
         test=tuple(tests),
-        recordings=tuple(recordings),
-        test_recordings=tuple(test),
+        recordings=outcome.given.recordings,
+        test_recordings=outcome.given.test,
         since=_since(decision, search, ends),
         uncertain={name: str(given) for name, given in search.setting.uncertain.items()},
+        doubt=outcome.doubt.reason if outcome.doubt else '',
     )
 
 

@@ -133,7 +133,8 @@ class Conclusion:
     gapless stretches. Without test recordings a part of each recording was held out instead.
     ``since`` is the time in s, on the clock of the recording, at which the effects begin to act,
     or from which the best model fails; None if this is the case from the start. ``uncertain`` are
-    the given standard deviations of nominal values, by parameter.
+    the given standard deviations of nominal values, by parameter. ``doubt`` is the reason why the
+    recordings contradict what was stated about them, such as a unit, '' if they do not.
     """
 
     verdict: Verdict
@@ -150,12 +151,14 @@ class Conclusion:
     test_recordings: tuple[Recording, ...]
     since: Estimate | None
     uncertain: Mapping[str, str]
+    doubt: str
 
     @property
     def joint(self) -> Joint:
         """The identified joint: the re-tuned one with the effects that were found.
 
-        Raises ParameterError if the identified parameters describe no valid joint.
+        Raises ParameterError if the identified parameters describe no valid joint, or the
+        recordings contradict what was stated about them.
         """
         self.refuse_invalid()
 
@@ -166,6 +169,8 @@ class Conclusion:
 
     def refuse_invalid(self) -> None:
         """Raise ParameterError if the identified parameters describe no valid joint."""
+        if self.doubt:
+            raise ParameterError(f'no joint was identified: {self.doubt}')
         if problem := self.stages[-1].problem:
             raise ParameterError(
                 f'the identified parameters describe no joint that can be simulated: {problem}'

@@ -3,14 +3,15 @@
 """Read any recording: a rosbag2 directory, one of its files, a table file, or a DataFrame."""
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pam_ros.arguments import as_path, instance, sequence
+from pam_ros.arguments import as_path, instance, refuse, sequence
 from pam_ros.errors import RecordingError, printable, shown
 from pam_ros.recording.assemble import MissingSignalError, assemble
+from pam_ros.recording.bag.clocks import TIMES
 from pam_ros.recording.bag.read import bag_files, read_bag
 from pam_ros.recording.bounds import Bounded, Bounds, bounds_of
 from pam_ros.recording.dataframe import series_of_frame
@@ -36,16 +37,16 @@ def read_recording(
     columns: Sequence[str] = (),
     sheet: str | None = None,
     variable: str | None = None,
+    time: str = 'header',
 ) -> Recording:
     """Read the recording at *path* in SI, and check it.
 
     *path* is a rosbag2 directory, one of its files, a CSV file, an Excel workbook (.xlsx), or a
-    MATLAB file (.mat) of version 7 or before.
-    *joint* is the Joint that was recorded: its lengths and pressures are needed to read a
-    contraction, and show a signal that is in another unit. *mapping* gives the meaning of columns
-    or topics with other names (:func:`pam_ros.read_mapping`). *kind* is ``free`` for a free load
-    or ``held`` for a prescribed length (found from the data if None). *namespace* selects one of
-    several rigs in a bag.
+    MATLAB file (.mat) of version 7 or before. *joint* is the Joint that was recorded: its lengths
+    and pressures are needed to read a contraction, and show a signal in another unit. *mapping*
+    gives the meaning of columns or topics with other names (:func:`pam_ros.read_mapping`). *kind*
+    is ``free`` for a free load or ``held`` for a prescribed length (found from the data if None).
+    *namespace* selects one of several rigs in a bag.
 
     *muscles* are the names of the muscles of a joint that has several, in their order (if empty,
     the order in which they appear in a CSV file). Columns that belong to a muscle have its name
@@ -55,12 +56,17 @@ def read_recording(
     if its own are to be replaced; ``-`` is a column that is not used. *sheet* is the name of the
     sheet of a workbook that has several, *variable* that of the struct or matrix of a MATLAB file.
 
+    *time* is ``header`` for the stamps in the headers of the messages of a bag, where they have
+    some and all are of one clock, or ``received`` for the times of receipt of all messages.
+
     Raises RecordingError, with a sentence for the user, for a recording that cannot be used or is
     of another joint, and ParameterError for arguments of a wrong type.
     """
     path = as_path('path', path, 'the path of a bag or a CSV file')
     bounds, mapping, muscles = _arguments(joint, mapping, muscles)
     columns = sequence('columns', columns, str, "the name of a column, such as 't_s'")
+    if time not in TIMES:
+        refuse('time', time, f'one of {", ".join(TIMES)}')
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
     if not (path.is_dir() or path.is_file()):
@@ -69,26 +75,25 @@ def read_recording(
         raise RecordingError(f'recording {path} is neither a file nor a folder')
     header: list[str] = []
     if path.is_dir() or path.suffix in BAG_SUFFIXES:
-        for what, is_given in (
-            ('names of columns are', columns),
-            ('a sheet is', sheet),
-            ('a variable is', variable),
-        ):
-            if is_given:
-                raise RecordingError(f'{what} given, but recording {path} is a bag: leave it out')
+        of_tables = {'columns': ','.join(columns), 'sheet': sheet, 'variable': variable}
+        _refuse_given(of_tables, f'recording {path} is a bag')
         files = bag_files(path)
-        series, notes = read_bag(path, mapping, namespace, muscles, bounds.unit)
-    elif namespace is not None:
-        raise RecordingError(
-            f'namespace = {namespace}, but recording {path} is not a bag: a CSV file has no '
-            'namespaces, leave it out'
-        )
+        series, notes = read_bag(path, mapping, namespace, muscles, bounds.unit, time)
     else:
+        of_bags = {'namespace': namespace, 'time': '' if time == TIMES[0] else time}
+        _refuse_given(of_bags, f'recording {path} is not a bag')
         files = [path]
         series, notes, header = read_table_file(path, mapping, columns, sheet, variable)
     name = printable(path.name or str(path))
     recording = _assembled(name, series, notes, header, mapping, bounds, kind, muscles)
     return replace(recording, digest=_digest(files))
+
+
+def _refuse_given(options: Mapping[str, str | None], reason: str) -> None:
+    """Raise RecordingError for one of the *options*, by name, that is given."""
+    for name, given in options.items():
+        if given:
+            raise RecordingError(f'{name} = {shown(given)}, but {reason}: leave it out')
 
 
 def read_dataframe(

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A measured experiment: arrays in SI on one clock, with its gaps."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
@@ -71,6 +71,11 @@ class Recording:
     ``origin``
         Time in s of the stamp 0 in the file: on the time axis of a CSV file, or since the first
         message of a bag.
+    ``numbers``
+        Numbers of load, transmission and mounting that this recording has instead of those of the
+        joint, in SI, by the names of their parameters: ``{'mass': 10.0}``.
+    ``note``
+        A text on the experiment for reports, such as the temperature.
     """
 
     name: str
@@ -89,6 +94,8 @@ class Recording:
     muscles: tuple[str, ...] = ()
     unit: str = 'm'
     origin: float = 0.0
+    numbers: Mapping[str, float] = field(default_factory=dict)
+    note: str = ''
 
     def __post_init__(self) -> None:
         """Check that the arrays match each other, and store them as arrays."""
@@ -122,6 +129,12 @@ class Recording:
                 )
         self._check_gaps()
         instance('warnings', self.warnings, Sequence, 'texts')
+        instance('note', self.note, str, 'a text')
+        numbers = instance('numbers', self.numbers, Mapping, "numbers by name, {'mass': 10.0}")
+        checked['numbers'] = {
+            instance('a name in numbers', name, str, 'a text'): number(name, value)
+            for name, value in numbers.items()
+        }
         number('origin', self.origin)
         if number('command_spread', self.command_spread) < 0.0:
             refuse('command_spread', self.command_spread, 'at least 0 s')

@@ -19,7 +19,7 @@ from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
-SCHEMA_VERSION = '2.8'
+SCHEMA_VERSION = '2.9'
 
 Table = dict[str, Any]
 
@@ -162,6 +162,8 @@ def _recording(recording: Recording, role: str) -> Table:
         'commands': None if command is None else len(command),
         'unit': recording.unit,
         'ranges': ranges,
+        'numbers': dict(recording.numbers),
+        'note': recording.note,
         'warnings': list(recording.warnings),
         'sha256': recording.digest or None,
     }

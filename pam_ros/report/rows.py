@@ -139,6 +139,10 @@ def recordings(content: Table) -> list[Row]:
             'jitter': _jitter(one['jitter'] / period),
             'gaps': str(len(one['gaps'])),
             'commands': ABSENT if one['commands'] is None else str(one['commands']),
+            'stated': [
+                *(f'{name} = {number(value, 6)}' for name, value in one['numbers'].items()),
+                *([one['note']] if one['note'] else []),
+            ],
             'ranges': [
                 _range(name, low, high, one['unit']) for name, (low, high) in one['ranges'].items()
             ],

@@ -72,17 +72,18 @@ def find(name: str) -> Path:
             return path
     except OSError as error:  # too long for a path
         raise ParameterError(f'{name} cannot be read: {error.strerror}') from error
-    presets = {
-        file.stem: file
-        for folder in PRESETS
-        for file in sorted((share() / 'config' / folder).glob('*.yaml'))
-    }
-    if name in presets:
-        return presets[name]
+    known = {stem: file for folder in PRESETS for stem, file in presets(folder).items()}
+    if name in known:
+        return known[name]
     raise ParameterError(
         f'{name} is neither a parameter file nor a muscle or rig of this package: give a path or '
-        'one of ' + ', '.join(presets)
+        'one of ' + ', '.join(known)
     )
+
+
+def presets(folder: str) -> dict[str, Path]:
+    """Return the files of this package in a *folder* of ``config``, by their names."""
+    return {file.stem: file for file in sorted((share() / 'config' / folder).glob('*.yaml'))}
 
 
 def read(path: Path, node: str = 'pam_sim') -> dict[str, Value]:

@@ -11,10 +11,11 @@ from pam_ros.arguments import refuse, sequence
 from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect
 from pam_ros.effects.names import EffectName
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter
 from pam_ros.rig.arrangements import LOAD, Arrangement, arrangement_of
 from pam_ros.rig.joint import Joint
-from pam_ros.settings.files import find, read_any
+from pam_ros.settings.files import find, presets, read_any
 from pam_ros.settings.load import only_joint, read_scene
 from pam_ros.settings.rig import KINDS, RigParameters
 from pam_ros.settings.tables import Table, flat, listed, mountings, override, rig_table
@@ -125,6 +126,11 @@ def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoi
     scene, values = read_scene(name, raw, typed)
     joint = only_joint(name, scene, values)
     return NominalJoint(joint, scene.kind, tuple(scene.muscles), scene.joints[0])
+
+
+def package_muscles() -> dict[str, Muscle]:
+    """Return the muscles of this package, by the names of their files."""
+    return {name: nominal_joint(name).joint.muscle for name in presets('muscles')}
 
 
 def _number_or(text: str) -> float | str:

@@ -150,7 +150,7 @@ def check_program(name, words):
     if '-p' in ros:
         check_parameters(name, ros)
     if name == 'pam_identify':
-        given = pam_identify.parser().parse_args(own)
+        given = pam_identify.parser().parse_intermixed_args(own)
         known = not given.params.startswith(('MUSCLE', 'FILE'))
         if known:
             nominal_joint(

@@ -12,6 +12,7 @@ from pam_ros.excitation.segments import SEGMENTS
 from pam_ros.excitation.settings import Excitation
 from pam_ros.parameters import described
 from pam_ros.recording.mapping import read_mapping
+from pam_ros.settings.recording_list import recording_files
 from support.pages import ROOT, blocks, text_of
 
 PAGE = ROOT / 'docs' / 'recordings.md'
@@ -22,10 +23,13 @@ def test_the_rules_can_be_understood(tmp_path):
     rules = re.findall(r"^--column '?([^'\n#]+?)'?\s*(?:#.*)?$", GUIDE, re.MULTILINE)
     assert len(rules) == 5
     assert len(list(read_mapping(rules))) == 5
-    (columns,) = blocks(PAGE, 'yaml')
+    columns, recordings = blocks(PAGE, 'yaml')
     assert sorted(yaml.safe_load(columns)) == ['columns']
     (tmp_path / 'columns.yaml').write_text(columns)
     assert len(list(read_mapping(file=tmp_path / 'columns.yaml'))) == 2
+    (tmp_path / 'recordings.yaml').write_text(recordings)
+    files = recording_files(tmp_path / 'recordings.yaml')
+    assert [one.numbers for one in files] == [{'mass': 10.0}, {'mass': 20.0}]
 
 
 @pytest.mark.parametrize('name', described(Excitation))

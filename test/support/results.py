@@ -162,6 +162,7 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
         test_recordings=tuple(test),
         since=None,
         uncertain={'mass': '2%'},
+        doubt='',
         sentence='The configured model lacks something.' if findings else 'Nothing is missing.',
         next_experiment='slow triangles with minor loops: the force reverses within micrometres',
         next_command="pam_excite --ros-args -p segments:='[slow_triangle, fast_triangle]'",

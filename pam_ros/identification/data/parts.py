@@ -100,7 +100,7 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
     deciding = _deciding(recordings, 1.0 - fit / choose)
     found = []
     for k, recording in enumerate(recordings):
-        segments = segments_of([recording])
+        segments = [replace(one, recording=k) for one in segments_of([recording])]
         if not segments:
             continue
         start, end = segments[0].t[0], segments[-1].t[-1]

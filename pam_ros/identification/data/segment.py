@@ -3,8 +3,8 @@
 """A gapless stretch of a recording, prepared for many simulations."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import ClassVar
 
@@ -30,7 +30,8 @@ class Segment(ABC):
 
     t (n,) s; target (n,) the measured values of the simulated output, in ``unit``; fit (n,) marks
     the samples that may be used for fitting, the others are held out. y0, v0: first guess of the
-    state at t[0].
+    state at t[0]. ``recording`` is the number of its recording, and ``numbers`` are the numbers
+    of the rig that this recording has instead of those of the joint.
     """
 
     kind: ClassVar[str]  # that of the recording
@@ -43,6 +44,8 @@ class Segment(ABC):
     fit: Mask
     y0: float
     v0: float
+    recording: int = 0
+    numbers: Mapping[str, float] = field(default_factory=dict)
 
     @property
     @abstractmethod
@@ -138,8 +141,8 @@ def segments_of(recordings: Sequence[Recording]) -> list[Segment]:
     """
     require_one_kind(recordings)
     return [
-        _segment(part)
-        for recording in recordings
+        replace(_segment(part), recording=k, numbers=recording.numbers)
+        for k, recording in enumerate(recordings)
         for part in recording.segments()
         if part.t.size > 3
     ]

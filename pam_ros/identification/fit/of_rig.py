@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.errors import ParameterError
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
@@ -45,6 +46,30 @@ def numbers_of(joint: Joint) -> dict[OfRig, tuple[float, Parameter]]:
             one = OfRig(f'contraction_{i + 1}', MOUNTING, i)
             found[one] = actuator.contraction, CONTRACTION
     return found
+
+
+def given_numbers(joint: Joint, numbers: Mapping[str, float]) -> dict[OfRig, float]:
+    """Return the *numbers* of the rig that a recording states by name.
+
+    Raises ParameterError for a name that is not one of *joint*.
+    """
+    known = {of.name: of for of in numbers_of(joint)}
+    for name in numbers:
+        if name not in known:
+            raise ParameterError(
+                f'{name} cannot differ between recordings of this joint: it can be one of '
+                f'{", ".join(known)}'
+            )
+    return {known[name]: value for name, value in numbers.items()}
+
+
+def joint_with(joint: Joint, numbers: Mapping[str, float]) -> Joint:
+    """Return *joint* with the *numbers* that a recording states by name.
+
+    Raises ParameterError for a name that is not one of *joint*, and for a value that is not
+    allowed.
+    """
+    return changed(joint, given_numbers(joint, numbers)) if numbers else joint
 
 
 def fill(q: Array, joint: Joint, values: Mapping[OfRig, float]) -> None:

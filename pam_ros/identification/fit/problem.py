@@ -20,7 +20,7 @@ from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
-from pam_ros.identification.fit.of_rig import OfRig, fill
+from pam_ros.identification.fit.of_rig import OfRig, fill, given_numbers
 from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.fit.slopes import Indices, Slopes
 from pam_ros.identification.fit.unknowns import (
@@ -31,6 +31,7 @@ from pam_ros.identification.fit.unknowns import (
     OfEffect,
     OnsetTime,
     RunLevel,
+    RunNumber,
     RunStart,
     Unknown,
 )
@@ -88,6 +89,17 @@ class Problem:
             fill(q.reshape(self.layout.rows, self.layout.parameters), self.joint, numbers)
         return q
 
+    def _row_of_run(self, run: int, row: Array, u: Array) -> Array:
+        """Return the parameter row of a run: *row*, or with the numbers that are its own."""
+        own = dict(self._given[run])
+        own |= {of.of: k.value(u[n]) for of, k, n in self._of(RunNumber) if run in of.runs}
+        if not own:
+            return row
+        assert self.joint is not None
+        q: Array = row.reshape(self.layout.rows, self.layout.parameters).copy()
+        fill(q, self.joint, {**self.numbers_at(u), **own})
+        return q.reshape(-1)
+
     def numbers_at(self, u: Array) -> dict[OfRig, float]:
         """Return the unknown numbers of load, transmission and mounting at the unknowns u."""
         return {of: unknown.value(u[k]) for of, unknown, k in self._of(OfRig)}
@@ -98,12 +110,13 @@ class Problem:
         Each is (n, 2 + 2 muscles): position and velocity (m or rad), then for each muscle the
         chamber pressure in Pa and, in runs at a prescribed length, the force in N.
         """
-        q = self.row_at(u).reshape(self.layout.rows, self.layout.parameters)
+        shape, shared = (self.layout.rows, self.layout.parameters), self.row_at(u)
         kernel, layout = bind(self.layout, self.active), self.layout
-        change = self._change(q, u)
         found = []
         for k in range(len(self.segments)) if only is None else (only,):
             s = self.segments[k]
+            q = self._row_of_run(k, shared, u).reshape(shape)
+            change = self._change(q, u)
             if isinstance(s, FreeSegment):
                 changes = [] if change is None or change.time <= s.t[0] else [change]
                 first = self._before(q) if changes else q
@@ -233,6 +246,14 @@ class Problem:
         return Slopes.of(self.by_run(jacobian), self._acting)
 
     # Cached, since each of many simulations needs them -----------------------------------------
+
+    @cached_property
+    def _given(self) -> list[dict[OfRig, float]]:
+        """The numbers of the rig that are given for each run instead of the common ones."""
+        return [
+            given_numbers(self.joint, s.numbers) if self.joint and s.numbers else {}
+            for s in self.segments
+        ]
 
     @cached_property
     def _run_of(self) -> list[int | None]:

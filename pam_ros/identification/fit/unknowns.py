@@ -126,6 +126,19 @@ class RunLevel:
 
 
 @dataclass(frozen=True)
+class RunNumber:
+    """The number *of* a rig in the runs of one recording, if it differs from the other ones."""
+
+    runs: tuple[int, ...]
+    of: OfRig
+
+    @property
+    def name(self) -> str:
+        """Its name in tables."""
+        return f'{self.of.name}[{self.runs[0]}]'
+
+
+@dataclass(frozen=True)
 class CommandTime:
     """The time in s by which commands acted before their stamps of receipt, equal in all runs.
 
@@ -148,7 +161,17 @@ class Unknown:
     0, infinite if nothing is known. ``low``, ``high`` bound the value.
     """
 
-    of: Constant | OfRig | OfEffect | OnsetTime | CommandTime | RunStart | MemoryStart | RunLevel
+    of: (
+        Constant
+        | OfRig
+        | OfEffect
+        | OnsetTime
+        | CommandTime
+        | RunStart
+        | MemoryStart
+        | RunLevel
+        | RunNumber
+    )
     base: float
     scale: float
     low: float = -np.inf

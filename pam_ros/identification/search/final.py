@@ -9,14 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.parts import FEWEST, Part, run_of
-from pam_ros.identification.data.thinning import LONGEST_PERIOD, coarse_period, thinned
+from pam_ros.identification.data.thinning import LONGEST_PERIOD, thinned
 from pam_ros.identification.fit.extend import memories
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, initial_solution, least_squares
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Model, Setting, rms, simulate_on
 from pam_ros.identification.search.starts import without_idle
-from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 STEP = 1e-3  # s, longest step of the simulations of a rig that is not slow
@@ -43,7 +42,7 @@ def fit_finally(search: Search) -> FinalFits:
     setting = search.setting
     parts = tuple(sorted(setting.parts, key=lambda part: not _is_run(part)))
     runs = [run_of(part.segment, part.known) for part in parts if _is_run(part)]
-    whole = setting.problem_of(runs, short_step(setting.joint))
+    whole = setting.problem_of(runs, short_step(setting.coarse_period(LONGEST_PERIOD)))
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
     nominal = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
     retuned = _nearest(*_begun(search.retuned, whole, setting), setting)
@@ -52,9 +51,12 @@ def fit_finally(search: Search) -> FinalFits:
     return FinalFits(parts, nominal, retuned, _nearest(*_nearer(search, whole), setting))
 
 
-def short_step(joint: Joint) -> float:
-    """Return the longest step in s of the simulations of the last fits."""
-    return max(STEP, coarse_period(joint, LONGEST_PERIOD) / STEPS)
+def short_step(period: float) -> float:
+    """Return the longest step in s of the simulations of the last fits.
+
+    *period* in s is the longest one that the fastest oscillation of the rig allows.
+    """
+    return max(STEP, period / STEPS)
 
 
 def _is_run(part: Part) -> bool:

@@ -63,16 +63,20 @@ class Search:
         return min((m for m in same if m.solution.problem.step == step), key=lambda m: m.score)
 
 
-def find_effects(setting: Setting, progress: Progress = lambda share, text: None) -> Search:
-    """Find the effects that the nominal model lacks; *progress* is called at each step."""
+def without_effects(setting: Setting, progress: Progress = lambda share, text: None) -> Search:
+    """Return a search that has only re-tuned the nominal model."""
     progress(0.0, 're-tuning the parameters')
     problem = setting.problem
     u = np.zeros(len(problem.unknowns))
     start = initial_solution(problem, u, pool=setting.pool)
     end = keeping_onset(start, lambda known: converge(known, pool=setting.pool))
     retuned = setting.model((), end)
-    found = Search(setting, retuned, retuned, [retuned])
-    budget = setting.budget
+    return Search(setting, retuned, retuned, [retuned])
+
+
+def find_effects(setting: Setting, progress: Progress = lambda share, text: None) -> Search:
+    """Find the effects that the nominal model lacks; *progress* is called at each step."""
+    found, budget = without_effects(setting, progress), setting.budget
     for n in range(budget.rounds):
         progress(0.05 + 0.75 * n / budget.rounds, f'trying effects, round {n + 1}')
         if len(found.best.effects) == budget.effects or is_complete(found.best, setting):

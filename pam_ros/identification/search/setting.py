@@ -23,11 +23,13 @@ from pam_ros.identification.data.rests import without_rests
 from pam_ros.identification.data.segment import Segment, windows
 from pam_ros.identification.data.thinning import (
     LONGEST_PERIOD,
+    PERIODS,
     coarse_period,
     longest_step,
     thinned,
 )
 from pam_ros.identification.fit.discrepancy import WHITE
+from pam_ros.identification.fit.of_rig import joint_with
 from pam_ros.identification.fit.places import Place, muscle_of, places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.run_levels import level_unknowns
@@ -143,9 +145,15 @@ class Setting:
         If there are more samples than a search needs, it is a multiple of the usual period, as far
         as the rig's own frequency allows.
         """
-        usual, longest = coarse_period(self.joint), coarse_period(self.joint, LONGEST_PERIOD)
+        usual, longest = self.coarse_period(), self.coarse_period(LONGEST_PERIOD)
         times = ceil(self._size(self._brief, usual) / self.budget.samples)
         return max(usual, min(times * usual, longest))
+
+    def coarse_period(self, longest: float = PERIODS[1]) -> float:
+        """Return the period in s that the fastest oscillation in any recording allows."""
+        numbers = {tuple(sorted(part.segment.numbers.items())) for part in self.parts}
+        joints = [joint_with(self.joint, dict(own)) for own in numbers]
+        return min(coarse_period(joint, longest) for joint in joints)
 
     @property
     def step(self) -> float:
@@ -155,8 +163,9 @@ class Setting:
     @property
     def is_crossed(self) -> bool:
         """Whether choices use only recordings that are not fitted, as in a cross-validation."""
-        fitted = {part.segment.name for part in self.parts if part.fit.any()}
-        return fitted.isdisjoint(part.segment.name for part in self.parts if part.choose.any())
+        fitted = {part.segment.recording for part in self.parts if part.fit.any()}
+        chosen = (part.segment.recording for part in self.parts if part.choose.any())
+        return fitted.isdisjoint(chosen)
 
     @cached_property
     def thin(self) -> list[Part]:
@@ -182,7 +191,7 @@ class Setting:
     def _brief(self) -> Sequence[Part]:
         """The parts, without the middle of the rests if there are far too many samples."""
         # An onset is a time on the clock of the recording, which must not change.
-        size = self._size(self.parts, coarse_period(self.joint))
+        size = self._size(self.parts, self.coarse_period())
         if size <= MANY * self.budget.samples or self.onset is not None:
             return self.parts
         return [without_rests(part, self.noise) for part in self.parts]

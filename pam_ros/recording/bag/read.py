@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
+from pam_ros.recording.bag.clocks import Samples, timed
 from pam_ros.recording.bag.decode import Topic
 from pam_ros.recording.bag.source import BagSource, Message, bag_files, open_bag
 from pam_ros.recording.bag.topics import OwnTopics, own_topics
@@ -21,10 +22,7 @@ from pam_ros.recording.series import GAP_SECONDS, Series
 
 __all__ = ['bag_files', 'read_bag']
 
-_LATENCY = (-2e-3, 0.5)  # s from the stamp of a header to its receipt; outside, clocks differ
-_SIMULATED = 10**18  # ns: no real clock is before 2001
 _LATEST = 2**63 - 1  # ns: the largest time in ROS; an MCAP file can hold twice as much
-_TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 
 _JOINT = re.compile(r'\[[^\]]+\]$')
 SWAPPED = 0.01  # share of the messages of a topic that may be out of order
@@ -41,24 +39,13 @@ class _Field(NamedTuple):
     is_required: bool  # by the user; then it must have values
 
 
-class _Samples(NamedTuple):
-    """The samples of one topic: receive times and header stamps in ns, columns of numbers.
-
-    For each field, ``present`` is false where a message is not of its joint.
-    """
-
-    received: NDArray[np.int64]
-    stamped: NDArray[np.int64]
-    columns: list[NDArray[np.float64]]
-    present: list[NDArray[np.bool_]]
-
-
 def read_bag(
     path: Path,
     mapping: ColumnMapping,
     namespace: str | None = None,
     muscles: Sequence[str] = (),
     unit: str | None = None,
+    time: str = 'header',
 ) -> tuple[dict[str, Series], list[str]]:
     """Return (signal -> series in SI, warnings) of the rosbag2 at *path*.
 
@@ -71,8 +58,9 @@ def read_bag(
     this joint are not used, and the velocity and effort of that topic are those of this joint.
 
     The stamp of a message is that of its header if it has one, else the time of its receipt. If
-    the two clocks differ, all messages get the time of their receipt. Pressures in FluidPressure
-    are absolute; 101325 Pa are subtracted to make them gauge pressures.
+    the two clocks differ, or if *time* is ``received``, all messages get the time of their
+    receipt, see :func:`pam_ros.recording.bag.clocks.timed`. Pressures in FluidPressure are
+    absolute; 101325 Pa are subtracted to make them gauge pressures.
 
     Raises RecordingError for topics that are missing, ambiguous, or of an unknown type.
     """
@@ -81,15 +69,15 @@ def read_bag(
     fields = _fields(path, source, mapping, namespace, ours)
     samples = _read(path, source, fields)
     notes = list(source.notes)
-    use_header = _headers_agree(samples, notes)
-    origin = min((one.received[0] for one in samples.values()), default=0)
+    commands = {f.topic for f in fields if f.meaning.target.quantity == 'pressure_command'}
+    times, origin = timed(path.name, samples, commands, time, notes)
     series: dict[str, Series] = {}
     for topic, one in samples.items():
-        is_received = not use_header or one.stamped.min() <= 0
-        stamps = one.received if is_received else one.stamped
+        stamps, kept, is_received = times[topic]
         t = 1e-9 * (stamps - origin).astype(float)
         own = [field for field in fields if field.topic == topic]
-        for field, value, is_of in zip(own, one.columns, one.present, strict=True):
+        for field, column, present in zip(own, one.columns, one.present, strict=True):
+            value, is_of = column[kept], present[kept]
             _add(series, path, field, t[is_of], value[is_of], is_received, notes)
     return series, notes
 
@@ -174,7 +162,7 @@ def _find(
     return found[0] if found else None
 
 
-def _read(path: Path, source: BagSource, fields: list[_Field]) -> dict[str, _Samples]:
+def _read(path: Path, source: BagSource, fields: list[_Field]) -> dict[str, Samples]:
     """Return the samples of each topic that has messages."""
     messages: dict[str, list[Message]] = {field.topic: [] for field in fields}
     for message in source.messages(list(messages)):
@@ -188,7 +176,7 @@ def _read(path: Path, source: BagSource, fields: list[_Field]) -> dict[str, _Sam
 
 def _samples(
     path: Path, source: BagSource, fields: list[_Field], messages: list[Message]
-) -> _Samples:
+) -> Samples:
     """Return the *fields* of the *messages* of one topic."""
     last = max(message.stamp for message in messages)
     if last > _LATEST:
@@ -219,23 +207,7 @@ def _samples(
         reader.check()
     used = np.any(present, axis=0)
     columns, present = [one[used] for one in columns], [one[used] for one in present]
-    return _Samples(received[used], stamped[used], columns, present)
-
-
-def _headers_agree(samples: dict[str, _Samples], notes: list[str]) -> bool:
-    """Return whether headers and receipts have the same clock; add a note if they do not."""
-    for topic, one in samples.items():
-        if one.stamped.min() <= 0:
-            continue
-        late = 1e-9 * float(np.median(one.received - one.stamped))
-        early = -_TICK if one.received.max() < _SIMULATED else _LATENCY[0]
-        if not early <= late <= _LATENCY[1]:
-            notes.append(
-                f'{topic} was stamped by a clock {late:.4g} s behind that of the recorder: all '
-                'messages get the time of their receipt'
-            )
-            return False
-    return True
+    return Samples(received[used], stamped[used], columns, present)
 
 
 def _add(

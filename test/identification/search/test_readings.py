@@ -1,0 +1,135 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Units, signs, masses and muscles that are not as stated, in recordings of the truth plant."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.search.readings import likely_mistake
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.loads import Arm
+from pam_ros.rig.transmissions import Pulley
+from support import bench_truth
+from support.searches import setting_of
+from truth import effect
+from truth.pair_trials import pair_trial
+
+PSI, INCH = 6894.757, 0.0254
+MUSCLES = {'dmsp_20_400n': bench_truth.nominal().muscle}
+LAG = effect('pressure_lag', fill_s=0.05, vent_s=0.05)
+
+
+def doubt_of(recording, pool, model=None, muscles=MUSCLES):
+    def settings(joint, recordings):
+        return setting_of(recordings, pool, joint, muscles=recording.muscles)
+
+    setting = settings(model or bench_truth.nominal(), [recording])
+    return likely_mistake(setting, [recording], settings, muscles)
+
+
+@pytest.fixture(scope='module')
+def recordings():
+    """Return rigs that lack nothing, friction, and a lag."""
+    missing = {'nothing': (), 'friction': (effect('coulomb_friction'),), 'lag': (LAG,)}
+    return {name: bench_truth.free(*some, seed=4) for name, some in missing.items()}
+
+
+def scaled(recording, **factors):
+    return replace(
+        recording, **{name: f * getattr(recording, name) for name, f in factors.items()}
+    )
+
+
+@pytest.mark.parametrize('missing', ['nothing', 'friction', 'lag'])
+@pytest.mark.parametrize(
+    ('change', 'words'),
+    [
+        (partial(scaled, command=1e3 / PSI), ['6.895', 'psi', 'kPa']),
+        (partial(scaled, command=0.1), ['10 times', 'MPa', 'bar']),
+        (partial(scaled, position=0.01 / INCH), ['2.54', 'inch', 'cm']),
+        (partial(scaled, position=0.1), ['10 times', 'cm', 'mm']),
+        (lambda one: replace(one, position=0.11 - one.position), ['opposite sign']),
+        (lambda one: one, []),
+    ],
+    ids=['psi', 'bar', 'inch', 'cm', 'sign', 'right'],
+)
+def test_what_was_mistaken_is_named(recordings, missing, change, words, pool):
+    doubt = doubt_of(change(recordings[missing]), pool)
+    assert (doubt is not None) == bool(words)
+    if doubt is not None:
+        assert all(word in doubt.reason for word in words), doubt.reason
+        assert '--column' in doubt.remedy
+
+
+def with_muscle(joint, **changes):
+    (actuator,) = joint.actuators
+    return replace(
+        joint, actuators=(replace(actuator, muscle=replace(actuator.muscle, **changes)),)
+    )
+
+
+@pytest.mark.parametrize(
+    ('model', 'words'),
+    [
+        (bench_truth.nominal(mass=20.0 * 9.80665), ['the mass is 20 kg', 'N']),
+        (
+            with_muscle(bench_truth.nominal(), l0=0.15),
+            ['the muscle is dmsp_20_400n with l0 = 0.4'],
+        ),
+    ],
+    ids=['mass', 'muscle'],
+)
+def test_the_mass_or_the_muscle_can_be_what_was_mistaken(recordings, model, words, pool):
+    doubt = doubt_of(recordings['friction'], pool, model)
+    assert doubt is not None
+    assert all(word in doubt.reason for word in words), doubt.reason
+
+
+@pytest.mark.parametrize(
+    ('change', 'words'),
+    [
+        (partial(scaled, position=-1.0), ['the angle has the opposite sign']),
+        (lambda one: replace(one, command=one.command[:, ::-1]), ['muscles are exchanged']),
+        (partial(scaled, command=1e3 / PSI), ['6.895', 'psi']),
+        (partial(scaled, position=np.pi / 180.0), ['57.3', 'rad', 'deg']),
+        (lambda one: one, []),
+    ],
+    ids=['sign', 'exchanged', 'psi', 'deg', 'right'],
+)
+def test_a_joint_of_two_muscles(change, words, pool):
+    trial = pair_trial('creep@one', 3)
+    d = trial.nominal
+    units = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
+    muscle = Muscle(*d.constants_si, **units, zeta=d.zeta, l0=d.l0)
+    actuator = Actuator(muscle, contraction=d.contraction)
+    load = Arm(inertia=d.inertia, mass=d.mass, arm=d.arm)
+    joint = Joint((actuator, actuator), load, Pulley(radius=d.radius))
+    recording = Recording(
+        'pair', trial.t, trial.t, trial.commands, trial.angle, muscles=('a', 'b'), unit='rad'
+    )
+    doubt = doubt_of(change(recording), pool, joint, {})
+    assert (doubt is not None) == bool(words)
+    if doubt is not None:
+        assert all(word in doubt.reason for word in words), doubt.reason
+
+
+@pytest.mark.parametrize(
+    ('change', 'words'),
+    [
+        (partial(scaled, force=1.0 / 4.448222), ['4.448', 'lbf']),
+        (partial(scaled, command=1e3 / PSI), ['6.895', 'psi']),
+        (lambda one: one, []),
+    ],
+    ids=['lbf', 'psi', 'right'],
+)
+def test_a_muscle_at_prescribed_lengths(change, words, pool):
+    recording = bench_truth.held(effect('hysteresis'), seed=2)
+    doubt = doubt_of(change(recording), pool)
+    assert (doubt is not None) == bool(words)
+    if doubt is not None:
+        assert all(word in doubt.reason for word in words), doubt.reason
