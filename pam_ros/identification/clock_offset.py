@@ -86,30 +86,38 @@ def tests_on_one_clock(
     input explains what this model does not.
     """
     setting, known = search.setting, search.best.solution
-    nothing = np.zeros(0)
     corrected, sentences = [], []
     for test in tests:
-
-        def problem_at(offsets: Array, test: Recording = test) -> tuple[Problem, list[int]]:
-            moved = with_earlier_input(test, float(offsets[0]))
-            segments = tuple(thinned(s, setting.period) for s in segments_of([moved]))
-            row = known.problem.row_at(known.u)
-            problem = replace(known.problem, row=row, unknowns=(), segments=segments)
-            return problem, len(segments) * [0]
-
-        problem, owners = problem_at(np.zeros(1))
-        before = initial_solution(problem, nothing)
-        offsets, _ = profile_offsets(before, owners)
-        fit = fit_offsets(problem_at, nothing, np.maximum(offsets, 0.0), setting.pool)
-        offset, deviation = float(fit.offsets[0]), float(fit.deviations[0])
-        left = setting.above(rms(fit.solution.r))
-        is_explained = left <= setting.criteria.left * setting.above(rms(before.r))
-        if is_explained and offset - WIDE * deviation > _least_offset(test, setting):
-            corrected.append(_corrected(test, offset, deviation))
-            sentences.append(_sentence(test, offset, deviation))
-        else:
-            corrected.append(test)
+        offset, deviation = _offset_with(known, test, setting)
+        corrected.append(_corrected(test, offset, deviation) if offset else test)
+        sentences += [_sentence(test, offset, deviation)] if offset else []
     return corrected, sentences
+
+
+def _offset_with(known: Solution, recording: Recording, setting: Setting) -> tuple[float, float]:
+    """Return the offset of a *recording* that is not fitted and its deviation in s, 0 if none.
+
+    The model is that of the solution *known*, without a further fit.
+    """
+    nothing = np.zeros(0)
+
+    def problem_at(offsets: Array) -> tuple[Problem, list[int]]:
+        moved = with_earlier_input(recording, float(offsets[0]))
+        segments = tuple(thinned(s, setting.period) for s in segments_of([moved]))
+        row = known.problem.row_at(known.u)
+        problem = replace(known.problem, row=row, unknowns=(), segments=segments)
+        return problem, len(segments) * [0]
+
+    problem, owners = problem_at(np.zeros(1))
+    before = initial_solution(problem, nothing)
+    offsets, _ = profile_offsets(before, owners, 1)
+    fit = fit_offsets(problem_at, nothing, np.maximum(offsets, 0.0), setting.pool)
+    offset, deviation = float(fit.offsets[0]), float(fit.deviations[0])
+    left = setting.above(rms(fit.solution.r))
+    is_explained = left <= setting.criteria.left * setting.above(rms(before.r))
+    if is_explained and offset - WIDE * deviation > _least_offset(recording, setting):
+        return offset, deviation
+    return 0.0, 0.0
 
 
 class _Clocks:
@@ -147,7 +155,9 @@ class _Clocks:
     def _profile(self, start: Solution) -> Array:
         """Return the offsets in s from which a fit may begin; 0 where the input is not early."""
         problem, owners = self._problem(start.problem, np.zeros(len(self._recordings)))
-        offsets, falls = profile_offsets(replace(start, problem=problem), owners)
+        offsets, falls = profile_offsets(
+            replace(start, problem=problem), owners, len(self._recordings)
+        )
         is_early = (offsets > 0.0) & (falls > self._setting.criteria.margin)
         return np.where(is_early, offsets, 0.0)
 
@@ -199,18 +209,34 @@ class _Clocks:
 
     def corrected(self, fit: OffsetFit) -> list[Recording]:
         """Return the recordings with the offsets of *fit*, where they are early."""
-        early = self._are_early(fit)
+        offsets = self._corrections(fit)
         return [
-            _corrected(one, float(fit.offsets[k]), float(fit.deviations[k])) if early[k] else one
+            _corrected(one, *offsets[k]) if k in offsets else one
             for k, one in enumerate(self._recordings)
         ]
 
     def sentences(self, fit: OffsetFit) -> list[str]:
         """Return a sentence on each recording whose input is early."""
-        return [
-            _sentence(self._recordings[k], float(fit.offsets[k]), float(fit.deviations[k]))
-            for k in np.flatnonzero(self._are_early(fit)).tolist()
-        ]
+        corrections = self._corrections(fit).items()
+        return [_sentence(self._recordings[k], *found) for k, found in corrections]
+
+    def _corrections(self, fit: OffsetFit) -> dict[int, tuple[float, float]]:
+        """Return the offset and its deviation in s of each recording whose input is early.
+
+        Recordings that decide between models are not fitted: their offsets are those with which
+        the model of the fit explains them.
+        """
+        early = self._are_early(fit)
+        found = {
+            k: (float(fit.offsets[k]), float(fit.deviations[k]))
+            for k in np.flatnonzero(early).tolist()
+        }
+        fitted = {s.recording for s in fit.solution.problem.segments}
+        for k in {*range(len(self._recordings))} - fitted:
+            offset = _offset_with(fit.solution, self._recordings[k], self._setting)
+            if offset[0]:
+                found[k] = offset
+        return dict(sorted(found.items()))
 
 
 def _least_offset(recording: Recording, setting: Setting) -> float:

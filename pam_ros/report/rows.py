@@ -140,7 +140,7 @@ def recordings(content: Table) -> list[Row]:
             'gaps': str(len(one['gaps'])),
             'commands': ABSENT if one['commands'] is None else str(one['commands']),
             'stated': [
-                *(f'{name} = {number(value, 6)}' for name, value in one['numbers'].items()),
+                *(f'{name} = {value:g}' for name, value in one['numbers'].items()),
                 *([one['note']] if one['note'] else []),
             ],
             'ranges': [

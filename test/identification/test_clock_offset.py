@@ -82,3 +82,15 @@ def test_a_force_that_precedes_the_measured_pressure():
     found = identify(results.rig(), given)
     assert found.verdict == 'no_missing_effect'
     assert offsets_of(found) == {'kappa_5.csv': pytest.approx(40.0, abs=0.5)}
+
+
+@pytest.mark.needs_numba
+def test_recordings_that_only_decide_between_models_are_corrected_too():
+    """With five recordings, one of them is not fitted."""
+    names = [f'{k}.csv' for k in range(5)]
+    given = [
+        early(free(name, seed=k, seconds=8.0), 0.05 if k else 0.0) for k, name in enumerate(names)
+    ]
+    found = identify(results.rig(), given)
+    assert found.effects == ()
+    assert offsets_of(found) == pytest.approx(dict.fromkeys(names[1:], 50.0), abs=0.5)

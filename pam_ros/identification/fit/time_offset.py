@@ -48,10 +48,11 @@ class OffsetFit:
         return min(own, samples) * (score / samples - self.score / own)
 
 
-def profile_offsets(solution: Solution, owners: Sequence[int]) -> tuple[Array, Array]:
+def profile_offsets(solution: Solution, owners: Sequence[int], count: int) -> tuple[Array, Array]:
     """Return the offset in s of each recording with the least cost, and by how much it is less.
 
-    *owners* are the numbers of the recordings to which the runs belong, from 0 on.
+    *owners* are the numbers of the recordings to which the runs belong, of *count* recordings. The
+    offset of a recording without a run is 0.
     """
     problem = solution.problem
     span = max(float(s.t[-1] - s.t[0]) for s in problem.segments)
@@ -66,7 +67,7 @@ def profile_offsets(solution: Solution, owners: Sequence[int]) -> tuple[Array, A
             strict=True,
         )
     )
-    offsets, falls = np.zeros(max(owners) + 1), np.zeros(max(owners) + 1)
+    offsets, falls = np.zeros(count), np.zeros(count)
     for k in range(offsets.size):
         own = [(s.t[s.fit], run[s.fit], s.target[s.fit], j) for of, s, run, j in runs if of == k]
         if not own:
