@@ -10,12 +10,14 @@ from collections import deque
 from math import exp
 
 from pam_ros.effects.base import Compensation, EffectEquations
+from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import delays_of
 
-# Pa, beyond all dead bands: between these every path without a memory is an offset and a gain.
-LOW, HIGH = 4e5, 5e5
+# Pa and shares of p_max, the larger ones of which are beyond the dead bands: between these every
+# path without a memory is an offset and a gain.
+LOW, HIGH = (4e5, 2.0 / 3.0), (5e5, 5.0 / 6.0)
 # Share of a dead zone over which its compensation grows. A smaller one leaves less of the zone and
 # commands more noise.
 GROWS_OVER = 0.3
@@ -65,9 +67,16 @@ class PressurePath:
                 fill, vent, zone = effect.equations.chamber(row, j)
             else:
                 self._static.append((effect.equations, j))
-        low, high = self.reached(LOW), self.reached(HIGH)
-        self._gain = (high - low) / (HIGH - LOW)
-        self._offset = low - self._gain * LOW
+        p_max = joint.muscles[muscle].p_max
+        below, above = (max(least, share * p_max) for least, share in (LOW, HIGH))
+        low, high = self.reached(below), self.reached(above)
+        if low <= self.reached(0.0):
+            raise ParameterError(
+                f'a command of {below:g} Pa does not raise the pressure in the chamber, and p_max '
+                f'of the muscle is {p_max:g} Pa: a smaller dead band is needed for control'
+            )
+        self._gain = (high - low) / (above - below)
+        self._offset = low - self._gain * below
         self.is_lag_configured = max(fill, vent) > 0.0
         self.chamber = Chamber(fill, vent, zone)
         self.delay = delays_of(layout, q)[muscle]

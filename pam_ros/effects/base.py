@@ -98,6 +98,8 @@ ONSET = EffectParameter(
     name='onset',
     low=0.0,
     high=1e9,
+    fit_low=0.0,
+    fit_high=1e9,
     scale=1.0,
 )
 

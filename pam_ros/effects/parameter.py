@@ -3,6 +3,7 @@
 """A parameter of an effect: a field of its dataclass, with the data that a fit needs."""
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, ParamSpec
@@ -14,26 +15,47 @@ P = ParamSpec('P')
 # On a revolute joint the highest value of a length along the motion is the angle that this length
 # covers at an arm of 20 mm. Few joints have a shorter one.
 SHORT_ARM = 0.02  # m
+# Muscles of 45 N and of 20 kN, of 8 kPa and of 5 MPa, are far from the reference rig.
+# So a value may be so many times as large, or as small, if its unit contains these.
+WIDER = {'N': 100.0, 'Pa': 100.0, 'kg': 100.0, 'm': 10.0}
+_SYMBOL = re.compile(r'[A-Za-z]+')
 
 
 @dataclass(frozen=True, kw_only=True)
 class EffectParameter(Parameter):
     """Description of a parameter of an effect, in SI.
 
-    ``strength`` marks a parameter whose 0 means that the effect is absent. ``scale`` is a typical
-    size (fits are scaled by it), and ``sign`` the physical sign that a fitted strength must have
-    (0: either). ``needs_fine_steps`` marks one that long steps of a simulation hide; a fit begins
-    with its typical size. ``name`` and ``default`` are those of its field.
+    ``low`` and ``high`` are the allowed values on any rig, ``fit_low`` and ``fit_high`` those that
+    a fit may reach on the reference rig (:mod:`pam_ros.identification.fit.sizes`). ``strength``
+    marks a parameter whose 0 means that the effect is absent. ``scale`` is a typical size (fits
+    are scaled by it), and ``sign`` the physical sign that a fitted strength must have (0: either).
+    ``needs_fine_steps`` marks one that long steps of a simulation hide; a fit begins with its
+    typical size. ``name`` and ``default`` are those of its field.
     """
 
     name: str = ''
     default: float = 0.0
     low: float
     high: float
+    fit_low: float
+    fit_high: float
     scale: float
     strength: bool = False
     sign: int = 0
     needs_fine_steps: bool = False
+
+    def sized(self, factor: float, scale: float) -> 'EffectParameter':
+        """Return it for a rig on which its unit is *factor* times as large.
+
+        *scale* is the factor of its typical size, which depends on the kind of joint as well.
+        """
+        return replace(
+            self,
+            low=factor * self.fit_low,
+            high=factor * self.fit_high,
+            scale=scale * self.scale,
+            default=factor * self.default,
+        )
 
     def for_revolute(self, name: str) -> 'EffectParameter':
         """Return its description for a revolute joint, where a contraction becomes an angle.
@@ -42,9 +64,11 @@ class EffectParameter(Parameter):
         """
         unit = revolute_unit(self.unit, name)
         if self.unit == 'fraction':
-            return replace(self, unit=unit, low=-math.pi, high=math.pi)
+            low, high = -math.pi, math.pi
+            return replace(self, unit=unit, low=low, high=high, fit_low=low, fit_high=high)
         if self.unit == 'm':
-            return replace(self, unit=unit, high=self.high / SHORT_ARM)
+            high, fit_high = self.high / SHORT_ARM, self.fit_high / SHORT_ARM
+            return replace(self, unit=unit, high=high, fit_high=fit_high)
         return replace(self, unit=unit)
 
     def on_any_joint(self) -> 'EffectParameter':
@@ -66,12 +90,18 @@ def effect_parameter(
     scale: float,
     needs_fine_steps: bool = False,
 ) -> float:
-    """Return a field of an effect's dataclass, with its *default* and its description."""
+    """Return a field of an effect's dataclass, with its *default* and its description.
+
+    *low* and *high* are those of a fit on the reference rig.
+    """
+    least, most = _allowed(unit, low, high)
     about = EffectParameter(
         text=text,
         unit=unit,
-        low=low,
-        high=high,
+        low=least,
+        high=most,
+        fit_low=low,
+        fit_high=high,
         scale=scale,
         needs_fine_steps=needs_fine_steps,
     )
@@ -89,13 +119,29 @@ def strength(
 ) -> float:
     """Return a field whose default, 0, means that the effect is absent.
 
-    The default of *sign* is 1 for a range that begins at 0, and 0 for all other ranges.
+    *low* and *high* are those of a fit on the reference rig. The default of *sign* is 1 for a
+    range that begins at 0, and 0 for all other ranges.
     """
     known = int(low == 0.0) if sign is None else sign
+    least, most = _allowed(unit, low, high)
     about = EffectParameter(
-        text=text, unit=unit, low=low, high=high, scale=scale, strength=True, sign=known
+        text=text,
+        unit=unit,
+        low=least,
+        high=most,
+        fit_low=low,
+        fit_high=high,
+        scale=scale,
+        strength=True,
+        sign=known,
     )
     return _float_field(0.0, about)
+
+
+def _allowed(unit: str, low: float, high: float) -> tuple[float, float]:
+    """Return the range on any rig of a parameter that has this range on the reference rig."""
+    wider = max(WIDER.get(symbol, 1.0) for symbol in ['', *_SYMBOL.findall(unit)])
+    return low / wider if low > 0.0 else low * wider, high * wider
 
 
 def _float_field(default: float, about: EffectParameter) -> float:

@@ -10,6 +10,7 @@ import pytest
 
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.effects import DeadBand, DeadTime, PressureLag, PressureOffset
+from pam_ros.errors import ParameterError
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 
@@ -96,3 +97,9 @@ def test_the_lag_of_what_is_not_foreseen_shrinks_to_the_quickest():
         path.follow(path.command_for(200e3, 0.0), 1e-4)
         left = 200e3 - path.chamber.pressure
         assert left == pytest.approx(100e3 * math.exp(-(n + 1) * 1e-4 / 0.02), rel=2e-3)
+
+
+def test_a_dead_band_that_no_command_exceeds_is_refused():
+    joint = single_muscle_joint(effects=[DeadBand(band=5.1e5)])
+    with pytest.raises(ParameterError, match='does not raise the pressure in the chamber'):
+        PressurePath(joint, 0, 0.02)

@@ -35,8 +35,8 @@ def test_effects_on_a_joint_that_turns_have_its_units():
     assert [unit for unit, _, _ in friction.values()] == [
         'N m', 'N m', 'rad/s', 'N m/Pa', '', 'rad',
     ]  # fmt: skip
-    # 0.2 mm at an arm of 20 mm
-    assert friction['presliding'] == ('rad', 1e-6, pytest.approx(0.01))
+    # 0.2 mm at an arm of 20 mm, and ten times as much on any rig
+    assert friction['presliding'] == ('rad', 1e-7, pytest.approx(0.1))
     assert described(effects['viscous_friction'])['coefficient'][0] == 'N m s/rad'
     assert described(effects['payload'])['mass'][0] == 'kg'  # at the end of the arm
 
@@ -46,7 +46,7 @@ def test_nothing_else_about_them_differs(effect):
     for one, this in zip(effect.parameters(revolute=True), effect.parameters(), strict=True):
         assert one.unit == REVOLUTE[this.unit]
         if this.unit == 'm':
-            assert replace(one, unit='m', high=this.high) == this
+            assert replace(one, unit='m', high=this.high, fit_high=this.fit_high) == this
         elif this.unit != 'fraction':
             assert replace(one, unit=this.unit) == this
 
@@ -140,13 +140,13 @@ def test_a_contraction_on_a_joint_may_be_an_angle():
 
 
 def test_a_length_on_a_joint_may_be_an_angle():
-    assert pair(load=[CoulombFriction(level=1.0, presliding=0.008)]).effects[0].presliding == 0.008
-    allowed = 'give 1e-06 to 0.01 m or rad'
-    with pytest.raises(ParameterError, match=f'presliding = 0.02 is not allowed: {allowed}'):
-        CoulombFriction(level=1.0, presliding=0.02)
-    allowed = 'give 1e-06 to 0.0002 m'
-    with pytest.raises(ParameterError, match=f'presliding = 0.008 is not allowed: {allowed}$'):
-        single_muscle_joint(effects=[CoulombFriction(level=1.0, presliding=0.008)])
+    assert pair(load=[CoulombFriction(level=1.0, presliding=0.08)]).effects[0].presliding == 0.08
+    allowed = 'give 1e-07 to 0.1 m or rad'
+    with pytest.raises(ParameterError, match=f'presliding = 0.2 is not allowed: {allowed}'):
+        CoulombFriction(level=1.0, presliding=0.2)
+    allowed = 'give 1e-07 to 0.002 m'
+    with pytest.raises(ParameterError, match=f'presliding = 0.08 is not allowed: {allowed}$'):
+        single_muscle_joint(effects=[CoulombFriction(level=1.0, presliding=0.08)])
 
 
 def test_where_a_fit_starts_names_parameters_and_values_that_there_are():

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The places where an effect can be added to a joint: in all muscles, in one, or on the joint.
 
-The typical sizes of an effect, and the starting values of a fit, are those for a prismatic joint.
-On a revolute joint they are scaled by the arm of its muscles, so that they have the same influence
-on the joint.
+The typical sizes of an effect, its ranges, and the starting values of a fit are those of a
+reference rig, and are scaled to the sizes of the joint (:mod:`pam_ros.identification.fit.sizes`).
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,36 +16,19 @@ from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect, HiddenState, Starts
 from pam_ros.effects.names import EffectName, parsed
 from pam_ros.effects.parameter import EffectParameter
+from pam_ros.identification.fit.sizes import (
+    REFERENCE,
+    Revolute,
+    Sizes,
+    revolute_of,
+    sizes_of,
+)
 from pam_ros.rig import layout as at
-from pam_ros.rig import statics
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
-from pam_ros.units import ARM_POWER
 
 Array = NDArray[np.float64]
 INITIAL = 'initial'  # the parameter for the memory of an effect at the start
-
-
-@dataclass(frozen=True)
-class RevoluteScale:
-    """A revolute joint: the mean arm of its muscles, and their mean length, both in m."""
-
-    arm: float
-    length: float
-
-    def contraction(self, angle: Array) -> Array:
-        """Return the contraction of a muscle that corresponds to an *angle* in rad."""
-        return angle * self.arm / self.length
-
-    def factor(self, unit: str) -> float:
-        """Return the size on this joint of 1 *unit* on a prismatic joint.
-
-        A force at the arm is a torque. A length along the motion is an angle, and so is a
-        contraction of a muscle of this length.
-        """
-        if unit == 'fraction':
-            return self.length / self.arm
-        return float(self.arm ** ARM_POWER.get(unit, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,25 +36,26 @@ class Place:
     """An effect at a place of a joint.
 
     ``muscles`` are the numbers of the muscles in which it acts, with the same parameters; none for
-    an effect on the joint. ``names`` are the names of these muscles if the joint has several. For
-    an effect on a revolute joint, ``revolute`` gives the sizes.
+    an effect on the joint. ``names`` are the names of these muscles if the joint has several.
+    ``sizes`` are those of the rig, and ``revolute`` are further ones for an effect on a revolute
+    joint.
     """
 
     effect: type[Effect]
     muscles: tuple[int, ...]
     names: tuple[str, ...] = ()
-    revolute: 'RevoluteScale | None' = None
+    sizes: Sizes = REFERENCE
+    revolute: Revolute | None = None
 
     @cached_property
     def parameters(self) -> tuple[EffectParameter, ...]:
-        """The parameters of the effect, with their units and sizes at this place."""
-        if self.revolute is None:
-            return self.effect.parameters()
+        """The parameters of the effect, with their units, sizes and ranges at this place."""
+        is_revolute = self.revolute is not None
+        pairs = zip(
+            self.effect.parameters(revolute=is_revolute), self.effect.parameters(), strict=True
+        )
         return tuple(
-            replace(p, scale=self.revolute.factor(plain.unit) * p.scale)
-            for p, plain in zip(
-                self.effect.parameters(revolute=True), self.effect.parameters(), strict=True
-            )
+            p.sized(self.sizes.factor(plain.unit), self._factor(plain.unit)) for p, plain in pairs
         )
 
     @cached_property
@@ -88,27 +71,30 @@ class Place:
     @cached_property
     def states(self) -> tuple[HiddenState, ...]:
         """The hidden states of the effect."""
-        if self.revolute is None:
-            return self.effect.states
         return tuple(
-            replace(s, spread=self.revolute.factor(s.unit) * s.spread) for s in self.effect.states
+            replace(s, spread=self._factor(s.unit) * s.spread) for s in self.effect.states
         )
 
-    def guess(self, t: Array, p: Array, position: Array, residual: Array) -> Starts:
+    def guess(self, t: Array, p: Array, position: Array, residual: Array, unit: str) -> Starts:
         """Return the starting values that the effect derives from a recording, see its equations.
 
-        *position* is the contraction of a single muscle in line with a load, else the angle.
+        *position* is the contraction of a single muscle in line with a load, else the angle, and
+        *residual* is in *unit*.
         """
         if self.effect.equations.guess is None:
             return ()
         kappa = position if self.revolute is None else self.revolute.contraction(position)
-        return tuple(map(self._sized, self.effect.equations.guess(t, p, kappa, residual)))
+        at_reference = t, p / self.sizes.pressure, kappa, residual / self.sizes.factor(unit)
+        return tuple(map(self._sized, self.effect.equations.guess(*at_reference)))
+
+    def _factor(self, unit: str) -> float:
+        """Return the size at this place of 1 *unit* on the reference rig."""
+        turned = 1.0 if self.revolute is None else self.revolute.factor(unit)
+        return self.sizes.factor(unit) * turned
 
     def _sized(self, values: Mapping[str, float]) -> dict[str, float]:
-        if self.revolute is None:
-            return dict(values)
         units = {p.name: p.unit for p in self.effect.parameters()}
-        return {name: self.revolute.factor(units[name]) * value for name, value in values.items()}
+        return {name: self._factor(units[name]) * value for name, value in values.items()}
 
     @property
     def muscle(self) -> str:
@@ -194,19 +180,11 @@ def places_of(joint: Joint, muscles: Sequence[str] = ()) -> dict[str, Place]:
     every = tuple(range(len(joint.muscles)))
     found = []
     names = names_of_muscles(joint, muscles) if len(every) > 1 else ()
-    revolute = revolute_scale(joint)
+    sizes, revolute = sizes_of(joint), revolute_of(joint)
     for effect in joint.library:
         if effect.acts_on_joint():
-            found.append(Place(effect, (), revolute=revolute))
+            found.append(Place(effect, (), (), sizes, revolute))
             continue
-        found.append(Place(effect, every, names))
-        found += [Place(effect, (i,), (name,)) for i, name in enumerate(names)]
+        found.append(Place(effect, every, names, sizes))
+        found += [Place(effect, (i,), (name,), sizes) for i, name in enumerate(names)]
     return {place.name: place for place in found}
-
-
-def revolute_scale(joint: Joint) -> RevoluteScale | None:
-    """Return the sizes for a revolute *joint*, None for a prismatic one."""
-    if not joint.is_revolute:
-        return None
-    arm = float(np.mean(np.abs(statics.middle_arms(joint))))
-    return RevoluteScale(arm, float(np.mean([m.l0 for m in joint.muscles])))

@@ -132,4 +132,4 @@ def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
     # The contraction of one muscle in line with the load; of other joints the angle itself.
     length = problem.row[at.LENGTH]
     pressure = out[:, at.RUN_P :: 2].max(axis=1)
-    return place.guess(s.t, pressure, position / length, residual)
+    return place.guess(s.t, pressure, position / length, residual, s.unit)

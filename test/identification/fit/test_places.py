@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where effects act in a joint, and what sizes they have there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -92,7 +94,10 @@ def test_sizes_on_a_joint_that_turns_are_those_at_the_arm():
     assert viscous.example['coefficient'] == pytest.approx(RADIUS**2 * 30.0)
     assert places_of(ELBOW)['payload'].example == {'mass': 1.5}
     # Nothing changes on a load that slides.
-    assert plain.parameters == EFFECT['coulomb_friction'].parameters()
+    for one, declared in zip(
+        plain.parameters, EFFECT['coulomb_friction'].parameters(), strict=True
+    ):
+        assert one == replace(declared, low=declared.fit_low, high=declared.fit_high)
     assert plain.fit_starts == EFFECT['coulomb_friction'].fit_starts()
     assert plain.example == EFFECT['coulomb_friction'].example().given
     assert plain.states == EFFECT['coulomb_friction'].states
@@ -103,7 +108,7 @@ def test_a_stop_is_where_the_muscle_would_have_its_contraction():
     assert stop.example['upper'] == pytest.approx(0.2 * LENGTH / RADIUS)
     t = np.linspace(0.0, 10.0, 500)
     angle = 0.6 * np.sin(t)
-    places = [start['upper'] for start in stop.guess(t, t, angle, t) if 'upper' in start]
+    places = [start['upper'] for start in stop.guess(t, t, angle, t, 'rad') if 'upper' in start]
     assert places
     assert all(0.3 < place < 0.6 for place in places)
 

@@ -1,0 +1,98 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The sizes of a rig, with which the typical sizes of effects are those of this rig.
+
+The effects state the typical sizes, the ranges and the starting values of their parameters for a
+reference rig: a muscle of 0.4 m that pulls 1 kN at 0.6 MPa, on a prismatic joint. On a rig of
+another size they have the same influence if forces, pressures and lengths are in proportion. The
+proportions are powers of ten, since typical sizes are orders of magnitude. On a revolute joint the
+sizes are scaled by the arm of its muscles, too.
+"""
+
+import re
+from dataclasses import dataclass
+from math import log10
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
+from pam_ros.units import ARM_POWER
+
+Array = NDArray[np.float64]
+FORCE, PRESSURE, LENGTH = 1e3, 6e5, 0.4  # N, Pa and m, of the reference rig
+_SYMBOL = re.compile(r'[A-Za-z]+')
+
+
+@dataclass(frozen=True)
+class Revolute:
+    """A revolute joint: the mean arm of its muscles, and their mean length, both in m."""
+
+    arm: float
+    length: float
+
+    def contraction(self, angle: Array) -> Array:
+        """Return the contraction of a muscle that corresponds to an *angle* in rad."""
+        return angle * self.arm / self.length
+
+    def factor(self, unit: str) -> float:
+        """Return the size on this joint of 1 *unit* on a prismatic joint.
+
+        A force at the arm is a torque. A length along the motion is an angle, and so is a
+        contraction of a muscle of this length.
+        """
+        if unit == 'fraction':
+            return self.length / self.arm
+        return float(self.arm ** ARM_POWER.get(unit, 0))
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """How many times as large as on the reference rig forces, pressures and lengths are."""
+
+    force: float = 1.0
+    pressure: float = 1.0
+    length: float = 1.0
+
+    def factor(self, unit: str) -> float:
+        """Return the size on this rig of 1 *unit* on the reference rig.
+
+        Times are the same on all rigs, and masses are in the proportion of their weights.
+        """
+        each = {'N': self.force, 'kg': self.force, 'Pa': self.pressure, 'm': self.length}
+        above, _, below = unit.replace('(', ' ').replace(')', ' ').partition('/')
+        up, down = (
+            float(np.prod([each.get(symbol, 1.0) for symbol in _SYMBOL.findall(part)]))
+            for part in (above, below)
+        )
+        return up / down
+
+
+REFERENCE = Sizes()
+
+
+def sizes_of(joint: Joint) -> Sizes:
+    """Return the sizes of *joint*, from the means of its muscles."""
+    force = [float(muscle.force(muscle.p_max, 0.0)) for muscle in joint.muscles]
+    found = (
+        (float(np.mean(np.abs(force))), FORCE),
+        (float(np.mean([muscle.p_max for muscle in joint.muscles])), PRESSURE),
+        (float(np.mean([muscle.l0 for muscle in joint.muscles])), LENGTH),
+    )
+    return Sizes(*(_decade(value / reference) for value, reference in found))
+
+
+def revolute_of(joint: Joint) -> Revolute | None:
+    """Return the sizes for a revolute *joint*, None for a prismatic one."""
+    if not joint.is_revolute:
+        return None
+    arm = float(np.mean(np.abs(statics.middle_arms(joint))))
+    return Revolute(arm, float(np.mean([m.l0 for m in joint.muscles])))
+
+
+def _decade(ratio: float) -> float:
+    """Return the power of ten that is nearest to *ratio*, 1 if it is 0 or not finite."""
+    if not 0.0 < ratio < np.inf:
+        return 1.0
+    return float(10.0 ** round(log10(ratio)))
