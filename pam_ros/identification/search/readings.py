@@ -20,6 +20,7 @@ from pam_ros.errors import PamError
 from pam_ros.identification.data.checked import checked
 from pam_ros.identification.search.doubt import Doubt
 from pam_ros.identification.search.setting import Setting, rms
+from pam_ros.muscle.constants import CONSTANTS
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import statics
@@ -36,7 +37,8 @@ DOUBTED = 0.4
 LEFT, FOLLOWS = 1.0 / 3.0, 0.5
 REMEDY = (
     "Correct it, with --column 'NAME=TARGET*SCALE+OFFSET' for a signal, and identify again. If "
-    'the recording is right, the nominal model is of another rig.'
+    'the recording is right, the nominal model is of another rig: state how uncertain its '
+    'constants are, --uncertain a5=50%, and so on for a1 to a6.'
 )
 ALIKE = 1.5  # times the least error that the readings that are named with it have at most
 
@@ -91,8 +93,11 @@ def likely_mistake(
     """Return the doubt if *recordings* show a mistake in a unit or a sign, None if not.
 
     *setting* is the setting of their identification, and setting_of(joint, recordings) makes one
-    of others. The nominal muscle may also have been confused with one of *muscles*, by name.
+    of others. The nominal muscle may also have been confused with one of *muscles*, by name. If
+    constants were stated as uncertain, the error of the nominal model shows nothing.
     """
+    if any(name.rpartition('.')[2] in CONSTANTS for name in setting.uncertain):
+        return None
     before = _nominal_error(setting)
     if before < DOUBTED:
         return None

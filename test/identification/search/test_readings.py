@@ -39,6 +39,15 @@ def recordings():
     return {name: bench_truth.free(*some, seed=4) for name, some in missing.items()}
 
 
+def test_nothing_is_concluded_if_the_constants_are_uncertain(recordings, pool):
+    def settings(joint, given):
+        return replace(setting_of(given, pool, joint), uncertain={'a5': '50%'})
+
+    given = [scaled(recordings['nothing'], command=1e3 / PSI)]
+    setting = settings(bench_truth.nominal(), given)
+    assert likely_mistake(setting, given, settings, MUSCLES) is None
+
+
 def scaled(recording, **factors):
     return replace(
         recording, **{name: f * getattr(recording, name) for name, f in factors.items()}
