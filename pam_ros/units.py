@@ -5,6 +5,8 @@
 A force becomes a torque, and a length along the motion becomes an angle.
 """
 
+import re
+
 from pam_ros.errors import ParameterError
 
 REVOLUTE = {
@@ -53,6 +55,11 @@ ARM_POWER = {
     'Pa/(m s)': 1,
     'Pa s/m': 1,
 }
+
+
+def symbols(unit: str) -> list[str]:
+    """Return the symbols in a *unit*: N, s, m and Pa of ``N s/(m Pa)``."""
+    return re.findall('[A-Za-z]+', unit)
 
 
 def revolute_unit(unit: str, whose: str) -> str:

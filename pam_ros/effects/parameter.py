@@ -3,13 +3,12 @@
 """A parameter of an effect: a field of its dataclass, with the data that a fit needs."""
 
 import math
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, ParamSpec
 
 from pam_ros.parameters import Parameter, field_about
-from pam_ros.units import revolute_unit
+from pam_ros.units import revolute_unit, symbols
 
 P = ParamSpec('P')
 # On a revolute joint the highest value of a length along the motion is the angle that this length
@@ -18,7 +17,6 @@ SHORT_ARM = 0.02  # m
 # Muscles of 45 N and of 20 kN, of 8 kPa and of 5 MPa, are far from the reference rig.
 # So a value may be so many times as large, or as small, if its unit contains these.
 WIDER = {'N': 100.0, 'Pa': 100.0, 'kg': 100.0, 'm': 10.0}
-_SYMBOL = re.compile(r'[A-Za-z]+')
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,18 +92,8 @@ def effect_parameter(
 
     *low* and *high* are those of a fit on the reference rig.
     """
-    least, most = _allowed(unit, low, high)
-    about = EffectParameter(
-        text=text,
-        unit=unit,
-        low=least,
-        high=most,
-        fit_low=low,
-        fit_high=high,
-        scale=scale,
-        needs_fine_steps=needs_fine_steps,
-    )
-    return _float_field(default, about)
+    about = _about(text, unit, low, high, scale)
+    return _float_field(default, replace(about, needs_fine_steps=needs_fine_steps))
 
 
 def strength(
@@ -123,25 +111,22 @@ def strength(
     range that begins at 0, and 0 for all other ranges.
     """
     known = int(low == 0.0) if sign is None else sign
-    least, most = _allowed(unit, low, high)
-    about = EffectParameter(
+    about = _about(text, unit, low, high, scale)
+    return _float_field(0.0, replace(about, strength=True, sign=known))
+
+
+def _about(text: str, unit: str, low: float, high: float, scale: float) -> EffectParameter:
+    """Return the description of a parameter that has this range on the reference rig."""
+    wider = max([1.0, *(WIDER.get(symbol, 1.0) for symbol in symbols(unit))])
+    return EffectParameter(
         text=text,
         unit=unit,
-        low=least,
-        high=most,
+        low=low / wider if low > 0.0 else low * wider,
+        high=high * wider,
         fit_low=low,
         fit_high=high,
         scale=scale,
-        strength=True,
-        sign=known,
     )
-    return _float_field(0.0, about)
-
-
-def _allowed(unit: str, low: float, high: float) -> tuple[float, float]:
-    """Return the range on any rig of a parameter that has this range on the reference rig."""
-    wider = max(WIDER.get(symbol, 1.0) for symbol in ['', *_SYMBOL.findall(unit)])
-    return low / wider if low > 0.0 else low * wider, high * wider
 
 
 def _float_field(default: float, about: EffectParameter) -> float:

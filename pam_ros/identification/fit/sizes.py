@@ -9,7 +9,6 @@ proportions are powers of ten, since typical sizes are orders of magnitude. On a
 sizes are scaled by the arm of its muscles, too.
 """
 
-import re
 from dataclasses import dataclass
 from math import log10
 
@@ -18,11 +17,10 @@ from numpy.typing import NDArray
 
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Joint
-from pam_ros.units import ARM_POWER
+from pam_ros.units import ARM_POWER, symbols
 
 Array = NDArray[np.float64]
 FORCE, PRESSURE, LENGTH = 1e3, 6e5, 0.4  # N, Pa and m, of the reference rig
-_SYMBOL = re.compile(r'[A-Za-z]+')
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,7 @@ class Sizes:
         each = {'N': self.force, 'kg': self.force, 'Pa': self.pressure, 'm': self.length}
         above, _, below = unit.replace('(', ' ').replace(')', ' ').partition('/')
         up, down = (
-            float(np.prod([each.get(symbol, 1.0) for symbol in _SYMBOL.findall(part)]))
+            float(np.prod([each.get(symbol, 1.0) for symbol in symbols(part)]))
             for part in (above, below)
         )
         return up / down
