@@ -81,7 +81,7 @@ def search_recordings(
     if lacking:
         search = _search(setting, None, given, notify)
         return Outcome(search, None, given, lacking)
-    doubt = likely_mistake(setting, given.recordings, setting_of, muscles)
+    doubt = likely_mistake(setting, muscles)
     if doubt:
         return Outcome(without_effects(setting, notify), None, given).doubting(doubt)
 

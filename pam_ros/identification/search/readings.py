@@ -10,19 +10,21 @@ library is mistaken for one of them.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import pi
 from typing import Any
 
 import numpy as np
 
-from pam_ros.errors import PamError
-from pam_ros.identification.data.checked import checked
+from pam_ros.errors import ParameterError
+from pam_ros.identification.data.segment import FreeSegment, Segment
+from pam_ros.identification.data.thinning import coarse_period, longest_step
+from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.search.doubt import Doubt
 from pam_ros.identification.search.setting import Setting, rms
 from pam_ros.muscle.constants import CONSTANTS
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.recording.recording import Recording
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Joint
 
@@ -40,7 +42,7 @@ REMEDY = (
     'the recording is right, the nominal model is of another rig: state how uncertain its '
     'constants are, --uncertain a5=50%, and so on for a1 to a6.'
 )
-ALIKE = 1.5  # times the least error that the readings that are named with it have at most
+ALIKE = 2.0  # times the least error that the readings that are named with it have at most
 
 # Factors by which a signal is too small, and how this can happen: as <unit> that is read as <unit>
 PRESSURE = {
@@ -74,67 +76,67 @@ MASS = {9.80665: ('kg', 'N'), 1000.0: ('kg', 'g')}
 
 @dataclass(frozen=True)
 class Reading:
-    """Another meaning of the numbers of recordings, or of the nominal mass.
+    """Another meaning of the numbers of recordings, or of the nominal mass or muscle.
 
-    ``text`` is a clause that says what would be different.
+    ``text`` is a clause that says what would be different. The maps are of the runs, and of the
+    joint, None if it remains the same.
     """
 
     text: str
-    of_recording: Callable[[Recording], Recording] = lambda recording: recording
-    of_joint: Callable[[Joint], Joint] = lambda joint: joint
+    of_run: Callable[[Segment], Segment] = lambda run: run
+    joint: Joint | None = None
 
 
-def likely_mistake(
-    setting: Setting,
-    recordings: Sequence[Recording],
-    setting_of: Callable[[Joint, Sequence[Recording]], Setting],
-    muscles: Mapping[str, Muscle],
-) -> Doubt | None:
-    """Return the doubt if *recordings* show a mistake in a unit or a sign, None if not.
+def likely_mistake(setting: Setting, muscles: Mapping[str, Muscle]) -> Doubt | None:
+    """Return the doubt if the recordings show a mistake in a unit or a sign, None if not.
 
-    *setting* is the setting of their identification, and setting_of(joint, recordings) makes one
-    of others. The nominal muscle may also have been confused with one of *muscles*, by name. If
-    constants were stated as uncertain, the error of the nominal model shows nothing.
+    *setting* is the setting of their identification. The nominal muscle may also have been
+    confused with one of *muscles*, by name. If constants were stated as uncertain, the error of
+    the nominal model shows nothing.
     """
     if any(name.rpartition('.')[2] in CONSTANTS for name in setting.uncertain):
         return None
-    before = _nominal_error(setting)
+    # Without unknowns, the runs begin as they were measured.
+    nominal = replace(setting.problem, unknowns=())
+    before = _error(nominal)
     if before < DOUBTED:
         return None
     found: list[tuple[float, str]] = []
-    joint, first = setting.joint, recordings[0]
-    for reading in (*_readings(joint, first), *_with_muscles(joint, muscles)):
-        try:
-            rig = reading.of_joint(joint)
-            other = [checked(reading.of_recording(one), rig) for one in recordings]
-            found.append((_nominal_error(setting_of(rig, other)), reading.text))
-        except PamError:
-            continue  # with this reading the recordings are not those of this joint at all
-    least = min(found, default=(np.inf, ''))[0]
+    joint, runs = setting.joint, nominal.segments
+    for reading in (*_readings(joint, runs[0]), *_with_muscles(joint, muscles)):
+        other = replace(nominal, segments=tuple(map(reading.of_run, runs)))
+        if reading.joint is not None:
+            other = _of_joint(other, reading.joint)
+        found.append((_error(other), reading.text))
+    least = min(found)[0]
     if least > min(LEFT * before, FOLLOWS):
         return None
     texts = ', or '.join(text for error, text in sorted(found) if error <= ALIKE * least)
     return Doubt(
         f'the nominal model does not follow the recording (its error is {before:.2g} standard '
-        f'deviations of the {setting.parts[0].segment.quantity}), but it does (then '
-        f'{least:.2g}) if {texts}',
+        f'deviations of the {runs[0].quantity}), but it does (then {least:.2g}) if {texts}',
         REMEDY,
     )
 
 
-def _nominal_error(setting: Setting) -> float:
-    """Return the RMSE of the nominal model in standard deviations of the target."""
-    problem = setting.problem
-    error = rms(problem.residuals(np.zeros(len(problem.unknowns))))
+def _error(problem: Problem) -> float:
+    """Return the RMSE of a model without unknowns in standard deviations of the target."""
+    error = rms(problem.residuals(np.zeros(0)))
     target = np.concatenate([s.target[s.fit] for s in problem.segments])
     return error / float(np.std(target))
 
 
-def _readings(joint: Joint, recording: Recording) -> Iterator[Reading]:
-    """Return the other readings of recordings like *recording* of *joint*."""
-    is_angle = recording.unit == 'rad'
+def _of_joint(problem: Problem, joint: Joint) -> Problem:
+    """Return *problem* with the nominal values of another *joint* of the same kind."""
+    step = min(problem.step, longest_step(coarse_period(joint)))
+    return replace(problem, row=joint.parameters().ravel(), joint=joint, step=step)
+
+
+def _readings(joint: Joint, run: Segment) -> Iterator[Reading]:
+    """Return the other readings of runs like *run* of *joint*."""
+    is_angle = run.unit == 'rad'
     units = [('pressure', PRESSURE), ('position', ANGLE if is_angle else LENGTH)]
-    if recording.kind == 'held':
+    if run.kind == 'held':
         units.append(('force', FORCE))
     for quantity, table in units:
         for factor, right, wrong in _both_ways(table):
@@ -143,20 +145,21 @@ def _readings(joint: Joint, recording: Recording) -> Iterator[Reading]:
                 f'was read as one in {wrong}'
             )
             yield Reading(text, _scaled(quantity, factor))
-    if recording.kind == 'free' and joint.load.mass > 0.0:
+    if run.kind == 'free' and joint.load.mass > 0.0:
         for factor, wrong, right in _both_ways(MASS):
             text = (
                 f'the mass is {factor * joint.load.mass:.4g} kg instead of '
                 f'{joint.load.mass:.4g} kg, as a number in {right} that was given as {wrong}'
             )
-            yield Reading(text, of_joint=_with_mass(factor))
-    if recording.kind == 'free':
+            with suppress(ParameterError):  # no load has this mass
+                yield Reading(text, joint=joint.with_load(mass=factor * joint.load.mass))
+    if run.kind == 'free':
         text = 'the position has the opposite sign, and increases with the pull of the muscle'
         if is_angle:
             yield Reading('the angle has the opposite sign', _scaled('position', -1.0))
             text = 'the angle has the opposite sign and another zero'
         yield Reading(text, _turned(joint))
-    if len(recording.muscles) == 2:
+    if len(joint.muscles) == 2:
         yield Reading('the two muscles are exchanged', _exchanged)
 
 
@@ -167,43 +170,45 @@ def _both_ways(table: dict[float, tuple[str, str]]) -> Iterator[tuple[float, str
         yield 1.0 / factor, other, one
 
 
-def _changed(
-    recording: Recording, names: Sequence[str], change: Callable[[Any], Any]
-) -> Recording:
-    """Return *recording* with the signals called *names* changed, and without its warnings."""
-    values = {name: getattr(recording, name) for name in names}
-    return replace(
-        recording,
-        warnings=(),
-        **{name: change(value) for name, value in values.items() if value is not None},
-    )
+def _changed(run: Segment, names: Sequence[str], change: Callable[[Any], Any]) -> Segment:
+    """Return *run* with those of its values called *names* changed that it has."""
+    own = {name: getattr(run, name) for name in names if hasattr(run, name)}
+    return replace(run, **{name: change(value) for name, value in own.items()})
 
 
-def _scaled(quantity: str, factor: float) -> Callable[[Recording], Recording]:
-    """Return a map to recordings in which a *quantity* is *factor* times as large."""
-    names = {'pressure': ('command', 'pressure'), 'position': ('position', 'velocity')}
-    return lambda one: _changed(one, names.get(quantity, (quantity,)), lambda x: factor * x)
+def _scaled(quantity: str, factor: float) -> Callable[[Segment], Segment]:
+    """Return a map to runs in which a *quantity* is *factor* times as large."""
+
+    def scaled(run: Segment) -> Segment:
+        names = {
+            'pressure': ('drive', 'pressure'),
+            'position': ('position', 'velocity', 'y0', 'v0'),
+        }.get(quantity, ())
+        is_target = quantity == run.quantity
+        return _changed(run, (*names, *(['target'] if is_target else [])), lambda x: factor * x)
+
+    return scaled
 
 
-def _turned(joint: Joint) -> Callable[[Recording], Recording]:
-    """Return a map to recordings with the opposite sign of the position, which may have any zero.
+def _turned(joint: Joint) -> Callable[[Segment], Segment]:
+    """Return a map to runs with the opposite sign of the position, which may have any zero.
 
     The zero is the one with which the median position is that at rest with the median pressures.
     """
 
-    def turned(recording: Recording) -> Recording:
-        drive = recording.drive(1e-3)[1]
-        at_rest = statics.equilibrium(joint, np.median(drive, axis=0))
-        assert recording.position is not None
-        zero = at_rest + float(np.median(recording.position))
-        other = _changed(recording, ('position',), lambda y: zero - y)
-        return _changed(other, ('velocity',), np.negative)
+    def turned(run: Segment) -> Segment:
+        assert isinstance(run, FreeSegment)
+        # Commands of a thinned run are not evenly spaced.
+        at = np.maximum(np.searchsorted(run.drive_t, run.t, side='right') - 1, 0)
+        at_rest = statics.equilibrium(joint, np.median(run.drive[at], axis=0))
+        zero = at_rest + float(np.median(run.target))
+        return _changed(_changed(run, ('target', 'y0'), lambda y: zero - y), ('v0',), np.negative)
 
     return turned
 
 
-def _exchanged(recording: Recording) -> Recording:
-    return _changed(recording, ('command', 'pressure'), lambda values: values[:, ::-1])
+def _exchanged(run: Segment) -> Segment:
+    return _changed(run, ('drive',), lambda values: values[:, ::-1])
 
 
 def _with_muscles(joint: Joint, muscles: Mapping[str, Muscle]) -> Iterator[Reading]:
@@ -211,14 +216,7 @@ def _with_muscles(joint: Joint, muscles: Mapping[str, Muscle]) -> Iterator[Readi
     for name, muscle in muscles.items():
         for l0 in dict.fromkeys((muscle.l0, joint.muscles[0].l0)):
             other = replace(muscle, l0=l0)
-            yield Reading(f'the muscle is {name} with l0 = {l0:g} m', of_joint=_with_muscle(other))
-
-
-def _with_muscle(muscle: Muscle) -> Callable[[Joint], Joint]:
-    return lambda joint: replace(
-        joint, actuators=tuple(replace(one, muscle=muscle) for one in joint.actuators)
-    )
-
-
-def _with_mass(factor: float) -> Callable[[Joint], Joint]:
-    return lambda joint: joint.with_load(mass=factor * joint.load.mass)
+            actuators = tuple(replace(one, muscle=other) for one in joint.actuators)
+            with suppress(ParameterError):  # this joint cannot have the muscle
+                other_joint = replace(joint, actuators=actuators)
+                yield Reading(f'the muscle is {name} with l0 = {l0:g} m', joint=other_joint)

@@ -25,11 +25,9 @@ LAG = effect('pressure_lag', fill_s=0.05, vent_s=0.05)
 
 
 def doubt_of(recording, pool, model=None, muscles=MUSCLES):
-    def settings(joint, recordings):
-        return setting_of(recordings, pool, joint, muscles=recording.muscles)
-
-    setting = settings(model or bench_truth.nominal(), [recording])
-    return likely_mistake(setting, [recording], settings, muscles)
+    joint = model or bench_truth.nominal()
+    setting = setting_of([recording], pool, joint, muscles=recording.muscles)
+    return likely_mistake(setting, muscles)
 
 
 @pytest.fixture(scope='module')
@@ -40,12 +38,9 @@ def recordings():
 
 
 def test_nothing_is_concluded_if_the_constants_are_uncertain(recordings, pool):
-    def settings(joint, given):
-        return replace(setting_of(given, pool, joint), uncertain={'a5': '50%'})
-
     given = [scaled(recordings['nothing'], command=1e3 / PSI)]
-    setting = settings(bench_truth.nominal(), given)
-    assert likely_mistake(setting, given, settings, MUSCLES) is None
+    setting = replace(setting_of(given, pool), uncertain={'a5': '50%'})
+    assert likely_mistake(setting, MUSCLES) is None
 
 
 def scaled(recording, **factors):
