@@ -37,6 +37,8 @@ DOUBTED = 0.4
 # 0.37 of it, or an error of at least 0.65. The right reading left 0.001 to 0.33 of it, with few
 # exceptions.
 LEFT, FOLLOWS = 1.0 / 3.0, 0.5
+# Share of its greatest force, or of its length, by which another muscle differs at least.
+DIFFERENT = 0.25
 REMEDY = (
     "Correct it, with --column 'NAME=TARGET*SCALE+OFFSET' for a signal, and identify again. If "
     'the recording is right, the nominal model is of another rig: state how uncertain its '
@@ -211,11 +213,22 @@ def _exchanged(run: Segment) -> Segment:
     return _changed(run, ('drive',), lambda values: values[:, ::-1])
 
 
+def _are_alike(one: Muscle, other: Muscle) -> bool:
+    """Return whether two muscles differ less than a missing effect may change one of them."""
+    if abs(one.l0 / other.l0 - 1.0) > DIFFERENT:
+        return False
+    p, kappa = np.meshgrid(np.linspace(0.2, 1.0, 5) * other.p_max, np.linspace(0.0, 0.2, 5))
+    forces = [np.asarray(muscle.force(p, kappa)) for muscle in (one, other)]
+    return bool(np.max(np.abs(forces[0] - forces[1])) <= DIFFERENT * np.max(np.abs(forces[1])))
+
+
 def _with_muscles(joint: Joint, muscles: Mapping[str, Muscle]) -> Iterator[Reading]:
     """Return the readings with another muscle, of its own length or of the nominal one."""
     for name, muscle in muscles.items():
         for l0 in dict.fromkeys((muscle.l0, joint.muscles[0].l0)):
             other = replace(muscle, l0=l0)
+            if _are_alike(other, joint.muscles[0]):
+                continue
             actuators = tuple(replace(one, muscle=other) for one in joint.actuators)
             with suppress(ParameterError):  # this joint cannot have the muscle
                 other_joint = replace(joint, actuators=actuators)
