@@ -146,9 +146,3 @@ def check_all(instance: Any, *, revolute: bool = False) -> None:
     """
     for name, (kind, _, about) in described(type(instance), revolute=revolute).items():
         object.__setattr__(instance, name, about.check(name, getattr(instance, name), kind))
-
-
-def revolute_defaults(cls: type) -> dict[str, Any]:
-    """Return the described fields of a dataclass with their defaults for a revolute joint."""
-    table = described(cls, revolute=True)
-    return {name: default for name, (_, default, _) in table.items()}

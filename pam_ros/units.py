@@ -16,6 +16,7 @@ REVOLUTE = {
     'm/s^3': 'rad/s^3',
     'N': 'N m',
     'N/s': 'N m/s',
+    'N^2': 'N^2 m^2',
     'N/m': 'N m/rad',
     'N/(m s)': 'N m/(rad s)',
     'N s/m': 'N m s/rad',
@@ -57,9 +58,14 @@ ARM_POWER = {
 }
 
 
-def symbols(unit: str) -> list[str]:
-    """Return the symbols in a *unit*: N, s, m and Pa of ``N s/(m Pa)``."""
-    return re.findall('[A-Za-z]+', unit)
+def powers(unit: str) -> dict[str, int]:
+    """Return the power of each symbol in a *unit*: N 1, s 1, m -2 of ``N s/m^2``."""
+    above, _, below = unit.partition('/')
+    found: dict[str, int] = {}
+    for sign, part in ((1, above), (-1, below)):
+        for symbol, power in re.findall(r'([A-Za-z]+)(?:\^(\d+))?', part):
+            found[symbol] = found.get(symbol, 0) + sign * int(power or 1)
+    return found
 
 
 def revolute_unit(unit: str, whose: str) -> str:

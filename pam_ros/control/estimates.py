@@ -21,7 +21,7 @@ from pam_ros.control.rest.oscillation import OscillationTuning
 from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 from pam_ros.control.rest.standstill import Standstill, StandstillTuning
 from pam_ros.control.signals import Pressures, Reference
-from pam_ros.control.tuning import number, scaled
+from pam_ros.control.tuning import JointScale, number
 
 
 @dataclass(frozen=True)
@@ -74,26 +74,27 @@ class Estimates:
         gains: Gains,
         allocation: Allocation,
         paths: Sequence[PressurePath],
+        scale: JointScale,
     ) -> None:
-        """Take the nominal joint; call :meth:`start` before the first step."""
-        length, force = 1.0 / model.arm, model.arms
+        """Take the nominal joint, with the *scale* of its tuning numbers.
+
+        Call :meth:`start` before the first step.
+        """
         self.gains, self._model, self._paths = gains, model, paths
-        self._tuning = scaled(EstimateTuning(), length, force)
+        self._tuning = scale.of(EstimateTuning())
         self._is_lag_configured = any(path.is_lag_configured for path in paths)
         self.losses = FeedForwardForces(model)
         self.observer = Observer(model)
         self.learner = Learner(
             model,
             gains,
-            scaled(LearningTuning(), length, force),
-            scaled(FeatureTuning(), length, force),
+            scale.of(LearningTuning()),
+            scale.of(FeatureTuning()),
             allocation.reach,
             [path.chamber.zone for path in paths],
             lag_is_configured=self._is_lag_configured,
         )
-        self.standstill = Standstill(
-            gains.rest_tolerance, scaled(StandstillTuning(), length, force)
-        )
+        self.standstill = Standstill(gains.rest_tolerance, scale.of(StandstillTuning()))
         self.rejection = Rejection(gains, RejectionTuning(), OscillationTuning())
         self.reduction = GainReduction(ReductionTuning())
 

@@ -5,12 +5,13 @@
 from pam_ros.arguments import instance
 from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction
-from pam_ros.control.joint_settings import JointSettings
+from pam_ros.control.joint_settings import JointSettings, defaults_of
 from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.signals import Pressures, Terms
 from pam_ros.rig.joint import Joint
+from pam_ros.sizes import tuned_sizes_of
 
 
 class JointLaw:
@@ -36,9 +37,11 @@ class JointLaw:
         """
         self.joint = joint = instance('joint', joint, Joint, 'a Joint').at_start
         limits = instance('limits', Limits() if limits is None else limits, Limits, 'Limits')
-        wanted = CoContraction() if co_contraction is None else co_contraction
+        if co_contraction is None:
+            own = defaults_of(CoContraction, tuned_sizes_of(joint), revolute=joint.is_revolute)
+            co_contraction = CoContraction(**own)
         self._co_contraction: CoContraction = instance(
-            'co_contraction', wanted, CoContraction, 'a CoContraction'
+            'co_contraction', co_contraction, CoContraction, 'a CoContraction'
         )
         gains.require(revolute=joint.is_revolute)
         self.terms = Terms()

@@ -7,20 +7,29 @@ compensation is ``PATH``.
 """
 
 from collections import deque
+from dataclasses import dataclass
 from math import exp
 
+from pam_ros.control.tuning import JointScale, number
 from pam_ros.effects.base import Compensation, EffectEquations
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import delays_of
+from pam_ros.sizes import tuned_sizes_of
 
-# Pa and shares of p_max, the larger ones of which are beyond the dead bands: between these every
-# path without a memory is an offset and a gain.
-LOW, HIGH = (4e5, 2.0 / 3.0), (5e5, 5.0 / 6.0)
+LOW, HIGH = 2.0 / 3.0, 5.0 / 6.0  # of p_max: least pressures beyond the dead bands
 # Share of a dead zone over which its compensation grows. A smaller one leaves less of the zone and
 # commands more noise.
 GROWS_OVER = 0.3
+
+
+@dataclass(frozen=True)
+class PathTuning:
+    """Pressures beyond the dead bands, between which a path is an offset and a gain."""
+
+    low: float = number(4e5, 'Pa', 'two thirds of a p_max of 0.6 MPa')
+    high: float = number(5e5, 'Pa', 'five sixths of a p_max of 0.6 MPa')
 
 
 class Chamber:
@@ -68,7 +77,8 @@ class PressurePath:
             else:
                 self._static.append((effect.equations, j))
         p_max = joint.muscles[muscle].p_max
-        below, above = (max(least, share * p_max) for least, share in (LOW, HIGH))
+        tuning = JointScale(tuned_sizes_of(joint)).of(PathTuning())
+        below, above = max(tuning.low, LOW * p_max), max(tuning.high, HIGH * p_max)
         low, high = self.reached(below), self.reached(above)
         if low <= self.reached(0.0):
             raise ParameterError(

@@ -57,7 +57,7 @@ from pam_ros.control.signals import (
     step_arguments,
 )
 from pam_ros.control.switching import Surface
-from pam_ros.control.tuning import number, scaled
+from pam_ros.control.tuning import number, scale_of
 from pam_ros.rig.joint import Joint
 
 
@@ -98,10 +98,10 @@ class SlidingMode(JointLaw):
         gains = Gains.for_joint(joint) if gains is None else gains
         self.gains = instance('gains', gains, Gains, 'Gains')
         super().__init__(joint, gains, limits, co_contraction, gains.pressure_time)
-        length, force = 1.0 / self.model.arm, self.model.arms
-        self._tuning = scaled(LawTuning(), length, force)
-        self._estimates = Estimates(self.model, gains, self.allocation, self._paths)
-        self._stiction = Stiction(gains.rest_tolerance, scaled(StictionTuning(), length, force))
+        scale = scale_of(self.model)
+        self._tuning = scale.of(LawTuning())
+        self._estimates = Estimates(self.model, gains, self.allocation, self._paths, scale)
+        self._stiction = Stiction(gains.rest_tolerance, scale.of(StictionTuning()))
         self._surface = Surface()
         self._stiffness = StiffnessReference(
             self._co_contraction.wanted(self.allocation), self._co_contraction.co_contraction_rate

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any, ParamSpec
 
 from pam_ros.parameters import Parameter, field_about
-from pam_ros.units import revolute_unit, symbols
+from pam_ros.units import powers, revolute_unit
 
 P = ParamSpec('P')
 # On a revolute joint the highest value of a length along the motion is the angle that this length
@@ -24,7 +24,7 @@ class EffectParameter(Parameter):
     """Description of a parameter of an effect, in SI.
 
     ``low`` and ``high`` are the allowed values on any rig, ``fit_low`` and ``fit_high`` those that
-    a fit may reach on the reference rig (:mod:`pam_ros.identification.fit.sizes`). ``strength``
+    a fit may reach on the reference rig (:mod:`pam_ros.sizes`). ``strength``
     marks a parameter whose 0 means that the effect is absent. ``scale`` is a typical size (fits
     are scaled by it), and ``sign`` the physical sign that a fitted strength must have (0: either).
     ``needs_fine_steps`` marks one that long steps of a simulation hide; a fit begins with its
@@ -117,7 +117,7 @@ def strength(
 
 def _about(text: str, unit: str, low: float, high: float, scale: float) -> EffectParameter:
     """Return the description of a parameter that has this range on the reference rig."""
-    wider = max([1.0, *(WIDER.get(symbol, 1.0) for symbol in symbols(unit))])
+    wider = max([1.0, *(WIDER.get(symbol, 1.0) for symbol in powers(unit))])
     return EffectParameter(
         text=text,
         unit=unit,

@@ -10,18 +10,21 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
+from pam_ros.cached_property import cached_property
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.gains import Gains
+from pam_ros.control.joint_settings import described_for
 from pam_ros.control.limits import Limits
 from pam_ros.control.loop import HOLD, VENT
 from pam_ros.control.pid import PidGains
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.setup import LawSetup
-from pam_ros.errors import ParameterError
+from pam_ros.errors import PamError, ParameterError
 from pam_ros.parameters import check_all, parameter_field
 from pam_ros.settings.one_joint import MuscleTopics, OneJointParameters
 from pam_ros.settings.sim import Start
-from pam_ros.settings.tables import Table, Values, build, table_of
+from pam_ros.settings.tables import Table, Values, build, checked, table_of
+from pam_ros.sizes import REFERENCE, Sizes, tuned_sizes_of
 
 MEASURED = 'use_measured_velocity'  # the gain that velocity_source sets
 LEAST_PERIODS = 3  # of rate for which the rig must at least keep the last command
@@ -125,26 +128,46 @@ class ControlSettings:
         return f'{name} ({self.longest_interruption:g} s)'
 
 
-class ControlParameters(OneJointParameters):
+class _ControlledRig(OneJointParameters):
     """The muscles and joints of a rig, one of which is controlled."""
 
     elsewhere: ClassVar[tuple[str, ...]] = tuple(table_of(Start, 'initial.'))
+
+
+class ControlParameters(_ControlledRig):
+    """The parameters of such a rig and of its controller."""
+
+    @cached_property
+    def _sizes(self) -> Sizes:
+        """The sizes of the joint with the values that were given at the start."""
+        try:
+            rig = _ControlledRig(self._given)
+            name = str(self._given.get('joint_name', ControlSettings.joint_name))
+            joint = rig.one(checked(rig.table(), self._given), name).joint
+        except PamError:  # they are refused where they are used
+            return REFERENCE
+        return tuned_sizes_of(joint)
 
     @property
     def common(self) -> Table:
         """The table of the common parameters in addition to the rig, in the units of the joint."""
         revolute = self.kind.transmission.equations.revolute
-        gains = table_of(Gains, 'gains.', revolute=revolute)
+
+        def sized(cls: type, prefix: str = '') -> Table:
+            found = described_for(cls, self._sizes, revolute=revolute)
+            return {prefix + name: entry for name, entry in found.items()}
+
+        gains = sized(Gains, 'gains.')
         can_stiffen = revolute and self.kind.muscles > 1
         del gains[f'gains.{MEASURED}']
         return {
             **super().common,
             **table_of(ControlSettings),
-            **(table_of(CoContraction, revolute=True) if can_stiffen else {}),
+            **(sized(CoContraction) if can_stiffen else {}),
             **gains,
-            **table_of(PidGains, 'pid.', revolute=revolute),
+            **sized(PidGains, 'pid.'),
             **table_of(Limits, 'limits.'),
-            **table_of(Shape, 'shape.', revolute=revolute),
+            **sized(Shape, 'shape.'),
         }
 
     def build(self, values: Values) -> 'ControlSetup':

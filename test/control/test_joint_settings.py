@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Gains and bounds know whether the joint slides or turns, and fit no other."""
 
+from dataclasses import replace
+
 import pytest
 
 from pam_ros.control.gains import Gains
@@ -10,8 +12,10 @@ from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
+from pam_ros.parameters import described
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support.pair_loop import nominal as elbow
+from support.scaled import scaled_muscle
 
 KINDS = (Gains, PidGains, Shape)
 
@@ -21,6 +25,19 @@ def test_the_joint_decides_which_defaults_apply(kind):
     assert kind.for_joint(single_muscle_joint()) == kind()
     assert kind.for_joint(elbow()) == kind.revolute() != kind()
     assert kind.for_joint(elbow()).is_revolute
+
+
+@pytest.mark.parametrize('kind', KINDS)
+@pytest.mark.parametrize('joint', [single_muscle_joint(), elbow()], ids=['prismatic', 'revolute'])
+def test_defaults_of_forces_and_pressures_are_those_of_the_muscles(kind, joint):
+    muscle = scaled_muscle(joint.muscles[0], 1e-3, 1e-2, 1.0)
+    actuators = tuple(replace(one, muscle=muscle) for one in joint.actuators)
+    small = replace(joint, actuators=actuators, load=replace(joint.load, mass=0.02))
+    units = {name: about.unit for name, (_, _, about) in described(kind).items()}
+    scales = {'N': 1e-3, 'Pa/m': 1e-2, 'Pa/(m s)': 1e-2, 'Pa s/m': 1e-2}
+    for name, unit in units.items():
+        expected = scales.get(unit, 1.0) * getattr(kind.for_joint(joint), name)
+        assert getattr(kind.for_joint(small), name) == pytest.approx(expected, rel=0.01), name
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,10 @@ import pytest
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.effects import DeadBand, DeadTime, PressureLag, PressureOffset
 from pam_ros.errors import ParameterError
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
+from support.scaled import scaled_muscle
 
 DT = 2e-3
 EFFECTS = [
@@ -99,7 +101,9 @@ def test_the_lag_of_what_is_not_foreseen_shrinks_to_the_quickest():
         assert left == pytest.approx(100e3 * math.exp(-(n + 1) * 1e-4 / 0.02), rel=2e-3)
 
 
-def test_a_dead_band_that_no_command_exceeds_is_refused():
-    joint = single_muscle_joint(effects=[DeadBand(band=5.1e5)])
+@pytest.mark.parametrize(('pressure', 'band'), [(1.0, 510e3), (0.013, 20e3)])
+def test_a_dead_band_that_no_command_exceeds_is_refused(pressure, band):
+    muscle = scaled_muscle(Muscle(), 1.0, pressure, 1.0)
+    joint = single_muscle_joint(muscle, effects=[DeadBand(band=band)])
     with pytest.raises(ParameterError, match='does not raise the pressure in the chamber'):
         PressurePath(joint, 0, 0.02)

@@ -30,6 +30,7 @@ FLOORS = (
     ('pam_ros.muscle',),
     ('pam_ros.effects', 'pam_ros.excitation'),
     ('pam_ros.rig',),
+    ('pam_ros.sizes',),
     ('pam_ros.control', 'pam_ros.devices', 'pam_ros.identification'),
     ('pam_ros.settings',),
     ('pam_ros.report', 'pam_ros.simulator'),

@@ -48,6 +48,19 @@ def test_every_muscle_of_the_package_can_be_controlled(muscle):
     assert now.law.joint.muscle.kappa_min * l0 <= low < high <= now.law.joint.muscle.kappa_max * l0
 
 
+def test_a_weak_muscle_has_gains_that_it_can_have():
+    constants = {'a1': -0.0436, 'a2': 2.81, 'a4': -0.0927, 'a5': 3.02, 'a6': -2.64}
+    weak = {**constants, 'force_max': 15.0, 'mass': 0.2}
+    names, build = settings_of(weak)
+    assert build(checked(names, weak)).law.gains.disturbance_bound == pytest.approx(2.0, rel=0.01)
+    given = weak | {'gains.disturbance_bound': 1.5}
+    names, build = settings_of(given)
+    assert build(checked(names, given)).law.gains.disturbance_bound == 1.5
+    wrong = weak | {'mass': -1.0}
+    with pytest.raises(ParameterError, match='mass'):
+        checked(settings_of(wrong)[0], wrong)
+
+
 def test_the_source_of_the_velocity_is_a_gain():
     assert setup_of({'velocity_source': 'measured'}).law.gains.use_measured_velocity
     assert not setup_of({}).law.gains.use_measured_velocity

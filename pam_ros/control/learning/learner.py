@@ -110,14 +110,15 @@ class Learner:
         self._lagged = Regression(spread, low, high, noise, alike)
         self.weight = self.stiffness = 0.0
         self.lag = (0.0, 0.0)
-        self._plain_error = self._lagged_error = 1.0
-        self._plain_miss = self._lagged_miss = 1.0
+        first = self._tuning.first
+        self._plain_error = self._lagged_error = first
+        self._plain_miss = self._lagged_miss = first
         self._moved = self._restarted = 0.0
         self._prefers_lag = False
         self._dropped_lag: tuple[float, float] | None = None
         self._share = self._explained = self._understood = self._known = 0.0
         # Of the force that is neither learned nor configured, and of that with what is configured.
-        self._missing, self._total = RunningVariance(), RunningVariance()
+        self._missing, self._total = RunningVariance(first), RunningVariance(first)
 
     def set_gains(self, gains: Gains) -> None:
         """Continue with other gains, which bound the bandwidth."""
@@ -334,7 +335,8 @@ class Learner:
 
     def _share_explained(self, error: float, force: RunningVariance) -> float:
         """Return the share of a *force* that is explained with a mean square *error*."""
-        return max(1.0 - (error + self._tuning.floor) / (force.value + 1e-9), 0.0)
+        least = 1e-9 * self._tuning.first
+        return max(1.0 - (error + self._tuning.floor) / (force.value + least), 0.0)
 
     def _restart_lagged(self) -> None:
         """Restart the hypothesis with a lag from the one without, with a lag of 0."""

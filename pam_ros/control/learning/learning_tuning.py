@@ -23,6 +23,12 @@ class LearningTuning:
     noise: float = number(
         1.0, 'N^2', 'variance of the missing force from the fast observer by the noise of position'
     )
+    first: float = number(
+        1.0,
+        'N^2',
+        'first value of mean squares of forces, which the first second of motion replaces',
+        along_muscle=False,
+    )
     forgotten: float = number(
         0.02,
         '1/s',

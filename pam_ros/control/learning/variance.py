@@ -4,10 +4,10 @@
 
 
 class RunningVariance:
-    """Variance of a force about its running mean, N^2."""
+    """Variance of a force about its running mean, N^2; it begins at *first*."""
 
-    def __init__(self) -> None:
-        self.value = 1.0
+    def __init__(self, first: float) -> None:
+        self.value = first
         self.start()
 
     def start(self) -> None:

@@ -38,6 +38,12 @@ class StandstillTuning:
     stiffest: float = number(
         20.0, '', 'largest stiffness, in muscles: faster loading overshoots; control, friction'
     )
+    least_stiffness: float = number(
+        1.0,
+        'N/m',
+        'least stiffness of the muscles, far below that of one: k is a divisor',
+        along_muscle=False,
+    )
     rest_speed: float = number(1e-4, 'm/s', 'below which a reference rests: 5 noises a second')
     rest_acceleration: float = number(1e-3, 'm/s^2', 'likewise: ten times that a second')
 
@@ -117,6 +123,6 @@ class Standstill:
         self._product += kept * (self._force_slope * self._position_slope - self._product)
         self._power += kept * (self._force_slope * self._force_slope - self._power)
         doubt = tuning.doubt * tuning.doubt
-        k = max(stiffness, 1.0)
+        k = max(stiffness, tuning.least_stiffness)
         compliance = (self._product + doubt / k) / (self._power + doubt)
         self.stiffness = clamp(1.0 / (k * max(compliance, 1e-12)), 1.0, tuning.stiffest)

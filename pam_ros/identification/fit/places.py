@@ -3,7 +3,7 @@
 """The places where an effect can be added to a joint: in all muscles, in one, or on the joint.
 
 The typical sizes of an effect, its ranges, and the starting values of a fit are those of a
-reference rig, and are scaled to the sizes of the joint (:mod:`pam_ros.identification.fit.sizes`).
+reference rig, and are scaled to the sizes of the joint (:mod:`pam_ros.sizes`).
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,16 +16,16 @@ from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect, HiddenState, Starts
 from pam_ros.effects.names import EffectName, parsed
 from pam_ros.effects.parameter import EffectParameter
-from pam_ros.identification.fit.sizes import (
+from pam_ros.rig import layout as at
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.layout import Layout
+from pam_ros.sizes import (
     REFERENCE,
     Revolute,
     Sizes,
     revolute_of,
     sizes_of,
 )
-from pam_ros.rig import layout as at
-from pam_ros.rig.joint import Joint
-from pam_ros.rig.layout import Layout
 
 Array = NDArray[np.float64]
 INITIAL = 'initial'  # the parameter for the memory of an effect at the start

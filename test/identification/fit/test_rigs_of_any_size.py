@@ -1,61 +1,27 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Sizes of rigs, and the same rig in other sizes: the same answer in other numbers."""
+"""The same rig in other sizes: the same typical sizes and verdict, in other numbers."""
 
 from dataclasses import replace
 
 import pytest
 
-from pam_ros.effects import EFFECTS
 from pam_ros.identification.fit.places import places_of
-from pam_ros.identification.fit.sizes import REFERENCE, Sizes, sizes_of
 from pam_ros.identification.identify import identify
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
+from pam_ros.sizes import REFERENCE, sizes_of
 from support import bench_truth
 from support.marks import at_release
+from support.scaled import scaled_muscle
 from truth import effect
-
-LARGE = Sizes(force=10.0, pressure=100.0, length=0.1)
-FACTORS = {
-    '': 1.0,
-    'fraction': 1.0,
-    's': 1.0,
-    '1/s': 1.0,
-    '1/fraction': 1.0,
-    'Hz': 1.0,
-    'N': 10.0,
-    'kg': 10.0,
-    'Pa': 100.0,
-    '1/Pa': 0.01,
-    'Pa/s': 100.0,
-    'm': 0.1,
-    'm/s': 0.1,
-    's/m': 10.0,
-    'N/m': 100.0,
-    'N/Pa': 0.1,
-    'N s/m': 100.0,
-    'N s/(m Pa)': 1.0,
-}
-
-
-def test_the_factor_of_every_unit_of_the_library():
-    units = {p.unit for one in EFFECTS for p in (*one.parameters(), *one.states)}
-    assert units <= {*FACTORS}
-    for unit, factor in FACTORS.items():
-        assert LARGE.factor(unit) == pytest.approx(factor), unit
-        assert REFERENCE.factor(unit) == 1.0
 
 
 def scaled(joint, recording, force, pressure, length):
     """Return a hanging rig and its recording in another size; the pendulum of times follows."""
     muscle, time = joint.muscle, length**0.5
-    by_pressure = {name: getattr(muscle, name) * force / pressure for name in ('a1', 'a4', 'a5')}
-    by_force = {name: getattr(muscle, name) * force for name in ('a2', 'a6', 'force_max')}
-    other = replace(
-        muscle, **by_pressure, **by_force, l0=muscle.l0 * length, p_max=muscle.p_max * pressure
-    )
+    other = scaled_muscle(muscle, force, pressure, length)
     times = {name: getattr(recording, name) * time for name in ('t', 'command_t')}
     values = {'command': recording.command * pressure, 'position': recording.position * length}
     rig = single_muscle_joint(other, Mass(mass=joint.load.mass * force))
