@@ -14,6 +14,7 @@ from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm
 from pam_ros.rig.transmissions import Pulley
+from pam_ros.settings.nominal import package_muscles
 from support import bench_truth
 from support.searches import setting_of
 from truth import effect
@@ -92,6 +93,19 @@ def test_the_mass_or_the_muscle_can_be_what_was_mistaken(recordings, model, word
     doubt = doubt_of(recordings['friction'], pool, model)
     assert doubt is not None
     assert all(word in doubt.reason for word in words), doubt.reason
+
+
+@pytest.mark.parametrize(
+    'missing',
+    [
+        [effect('payload', payload_kg=6.0)],
+        [effect('length_offset', kappa_offset=0.02)],
+        [effect('payload', payload_kg=6.0), effect('viscous_friction', viscous_ns_m=60.0)],
+    ],
+    ids=['payload', 'length offset', 'payload and viscous friction'],
+)
+def test_an_effect_is_not_mistaken_for_a_muscle_that_differs_little(missing, pool):
+    assert doubt_of(bench_truth.free(*missing, seed=4), pool, muscles=package_muscles()) is None
 
 
 @pytest.mark.parametrize(
