@@ -47,6 +47,7 @@ from pam_ros.rig.loads import Mass as Mass
 from pam_ros.rig.run import Trajectory as Trajectory
 from pam_ros.rig.run import simulate as simulate
 from pam_ros.rig.run import simulate_held as simulate_held
+from pam_ros.rig.run import simulate_pressure as simulate_pressure
 from pam_ros.rig.simulation import JointOutputs as JointOutputs
 from pam_ros.rig.simulation import MuscleOutputs as MuscleOutputs
 from pam_ros.rig.simulation import Simulation as Simulation

@@ -37,6 +37,7 @@ from pam_ros import (
     read_recording,
     simulate,
     simulate_held,
+    simulate_pressure,
     single_muscle_joint,
     write_csv,
 )
@@ -79,6 +80,12 @@ ARRAYS = {
     'simulate command_t': (lambda v: simulate(ONE, T, COMMAND, v), T, {STAMPS}),
     'simulate command': (lambda v: simulate(ONE, T, v), COMMAND, set()),
     'simulate command of two': (lambda v: simulate(ELBOW, T, v), COMMANDS, set()),
+    'simulate_pressure t': (
+        lambda v: simulate_pressure(ONE, v, COMMAND, T),
+        T,
+        {STAMPS, ANY_LENGTH},
+    ),
+    'simulate_pressure command': (lambda v: simulate_pressure(ONE, T, v), COMMAND, set()),
     'simulate_held t': (lambda v: simulate_held(ONE, v, COMMAND, STILL), T, {STAMPS}),
     'simulate_held pressure': (lambda v: simulate_held(ONE, T, v, STILL), COMMAND, set()),
     'simulate_held pressure of two': (
@@ -311,6 +318,7 @@ NUMBERS = {
         COMMAND,
         hidden={'creep': {creep_state(): v}},
     ),
+    'simulate_pressure step': lambda v: simulate_pressure(ONE, T, COMMAND, step=v),
     'simulate_held step': lambda v: simulate_held(ONE, T, COMMAND, STILL, step=v),
     'rig step': lambda v: Simulation([ONE], v),
     'rig pressure': lambda v: Simulation([ONE]).command_one(0, v),
@@ -467,6 +475,7 @@ OBJECTS = {
         (),
         'hidden = 30000.0',
     ),
+    'pressures of a muscle': (simulate_pressure, (Muscle(), T, COMMAND), 'joint = Muscle('),
     'hold a muscle': (simulate_held, (Muscle(), T, COMMAND, STILL), 'joint = Muscle('),
     'equilibrium of a muscle': (equilibrium, (Muscle(), 3e5), 'joint = Muscle('),
     'stiffness of a muscle': (joint_stiffness, (Muscle(), 3e5, 0.0), 'joint = Muscle('),

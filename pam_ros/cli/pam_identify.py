@@ -119,8 +119,9 @@ def _add_recording_options(made: argparse.ArgumentParser, some: str) -> None:
     )
     made.add_argument(
         '--kind',
-        choices=('free', 'held'),
-        help='free: the load moves; held: the length is prescribed (default: from the data)',
+        choices=('free', 'held', 'pressure'),
+        help='free: the load moves; held: the length is prescribed; pressure: only commands and '
+        'measured pressures (default: from the data)',
     )
     made.add_argument('--namespace', help='namespace of the rig, if bags contain several')
     made.add_argument(

@@ -66,6 +66,7 @@ Starts = tuple[dict[str, float], ...]
 Interval = tuple[float, float]
 # A row of float64: an array of numpy or of numba, with the same indexing.
 Row = MutableSequence[float]
+ON_PRESSURE = ('delay', 'reservoir', 'pressure')
 ON_JOINT = ('reservoir', 'mass', 'outside', 'drag')
 PLACES = (
     *('delay', 'reservoir', 'pressure', 'contraction', 'mass', 'force', 'damping'),
@@ -290,6 +291,11 @@ class Effect(ABC):
         if not revolute:
             return found
         return tuple(p.for_revolute(EffectName(cls.name, p.name).flat) for p in found)
+
+    @classmethod
+    def acts_on_pressure(cls) -> bool:
+        """Return whether it acts in the pressure path, from the command to the chamber."""
+        return any(place in ON_PRESSURE for place in cls.equations.places)
 
     @classmethod
     def acts_on_joint(cls) -> bool:

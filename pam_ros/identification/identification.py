@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The whole result of an identification, as a Python program and a notebook use it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from html import escape
 from typing import Any
@@ -22,7 +23,7 @@ from pam_ros.identification.summary import last_line, summary
 from pam_ros.identification.wording import scale_for
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.run import Trajectory, simulate, simulate_held
+from pam_ros.rig.run import Trajectory, simulate, simulate_held, simulate_pressure
 from pam_ros.rig.step_limit import longest_step
 
 STEP = 1e-3  # s, longest step of a simulation; a light load needs a shorter one
@@ -39,13 +40,13 @@ class Identification(Conclusion):
     ``warnings`` are sentences about the data and the result.
 
     ``stages`` are the nominal, the re-tuned and the augmented model, in this order, with their
-    errors in ``unit`` (m, rad or N), as ``noise`` is. ``quantity`` is what was predicted,
-    ``position`` or ``force``. ``candidates`` are all effects that were tried, and ``structure`` is
-    what remains in the residual. ``recordings`` were fitted, ``test_recordings`` were not;
-    ``segments`` and ``test`` are their gapless stretches. ``since`` is the time in s at which the
-    effects begin to act, None if they act from the start. ``uncertain`` are the given standard
-    deviations of nominal values, by parameter. :func:`pam_ros.save_report` and
-    :func:`pam_ros.save_parameters` write the result to files.
+    errors in ``unit`` (m, rad, N or Pa), as ``noise`` is. ``quantity`` is what was predicted,
+    ``position``, ``force`` or ``pressure``. ``candidates`` are all effects that were tried, and
+    ``structure`` is what remains in the residual. ``recordings`` were fitted,
+    ``test_recordings`` were not; ``segments`` and ``test`` are their gapless stretches. ``since``
+    is the time in s at which the effects begin to act, None if they act from the start.
+    ``uncertain`` are the given standard deviations of nominal values, by parameter.
+    :func:`pam_ros.save_report` and :func:`pam_ros.save_parameters` write the result to files.
     """
 
     sentence: str
@@ -77,7 +78,9 @@ class Identification(Conclusion):
 
         Each stretch between gaps begins where it was measured. Effects that begin in the middle of
         a fitted recording act in all others from the start. The result has the stamps of the
-        samples. Raises RecordingError for a recording of another joint or one that cannot be used.
+        samples. If only pressures were recorded, position, velocity and force are not simulated:
+        they are NaN. Raises RecordingError for a recording of another joint or one that cannot be
+        used.
         """
         instance('recording', recording, Recording, 'a Recording')
         joint = self.joint
@@ -86,6 +89,8 @@ class Identification(Conclusion):
         joint = joint_with(joint, recording.numbers)
         if not any(_are_same(recording, one) for one in self.recordings):
             joint = _from_start(joint)
+        if usable.kind == 'pressure':
+            return _pressures(joint, usable)
         step = min(STEP, *(longest_step(stage) for _, stage in joint.stages))
         runs = []
         for part in segments_of([usable]):
@@ -97,12 +102,7 @@ class Identification(Conclusion):
                 inputs = part.t, part.drive, part.drive_t
                 start = {'position': part.y0, 'velocity': part.v0, 'step': step}
                 runs.append(simulate(joint, *inputs, **start, hidden=None))
-        return Trajectory(
-            *(
-                np.concatenate([getattr(run, column.name) for run in runs])
-                for column in fields(Trajectory)
-            )
-        )
+        return _joined(runs)
 
     def plot(self, axes: Any = None) -> Any:
         """Draw the measurement, the nominal and the identified model, and what they leave.
@@ -133,6 +133,26 @@ class Identification(Conclusion):
         lower.set_ylabel(f'residual [{scale.unit}]')
         lower.set_xlabel('time [s]')
         return axes
+
+
+def _joined(runs: Sequence[Trajectory]) -> Trajectory:
+    """Return runs one after the other as one."""
+    return Trajectory(
+        *(np.concatenate([getattr(run, one.name) for run in runs]) for one in fields(Trajectory))
+    )
+
+
+def _pressures(joint: Joint, recording: Recording) -> Trajectory:
+    """Return the pressures in the chambers of *joint*, each stretch after a rest at its start."""
+    runs = []
+    for part in recording.segments():
+        drive_t, drive = part.drive(STEP)
+        pressure = simulate_pressure(joint, part.t, drive, drive_t, step=STEP)
+        nothing = np.full(part.t.size, np.nan)
+        runs.append(
+            Trajectory(part.t, nothing, nothing, pressure, np.full(pressure.shape, np.nan))
+        )
+    return _joined(runs)
 
 
 def _from_start(joint: Joint) -> Joint:

@@ -21,6 +21,7 @@ from pam_ros.identification.data.checked import checked
 from pam_ros.identification.data.noise import Noise, noise_of, step_of
 from pam_ros.identification.data.parts import Part, parts_of
 from pam_ros.identification.data.segment import (
+    PressureSegment,
     Segment,
     require_joint,
     require_one_kind,
@@ -184,7 +185,7 @@ def _warnings(given: Given, conclusion: Conclusion, augmented: Solution) -> tupl
         *(text for recording in recordings for text in recording.warnings),
         *apart(augmented, conclusion.noise.sigma),
         *undetermined_after(augmented),
-        *of_absolute_pressures(final, driving(recordings[0])[0].quantity),
+        *of_absolute_pressures(final, driving(recordings[0])[0].quantity, conclusion.quantity),
         *of_command_times(conclusion),
         *of_unused(recordings),
         *of_constants(augmented, conclusion),
@@ -312,7 +313,10 @@ def _structure(ends: FinalFits, search: Search, floor: float) -> Structure:
     out = problem.runs(u, longest)[0]
     s = segments[longest]
     run = problem.predict(u, longest)[0]
-    inputs = (*out[:, at.RUN_P :: 2].T, out[:, at.RUN_S], out[:, at.RUN_V])
+    position, velocity = out[:, at.RUN_S], out[:, at.RUN_V]
+    if isinstance(s, PressureSegment):
+        position, velocity = s.commands(s.t)[:, s.muscle], np.gradient(run, s.t)
+    inputs = (*out[:, at.RUN_P :: 2].T, position, velocity)
     return structure_of(s.t, s.target - run, inputs, floor)
 
 

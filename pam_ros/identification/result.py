@@ -124,10 +124,11 @@ class Finding:
 class Conclusion:
     """The numbers of an identification, and its verdict; :class:`Identification` has texts, too.
 
-    ``quantity`` is what was predicted, ``position`` or ``force``, and ``unit`` its unit, in which
-    errors and ``noise`` are given. ``stages`` are the nominal, re-tuned and augmented model, in
-    this order. ``effects`` are the effects that the nominal model lacks, ``candidates`` all that
-    were tried, and ``structure`` what remains in the residual of the last model.
+    ``quantity`` is what was predicted, ``position``, ``force`` or ``pressure``, and ``unit`` its
+    unit, in which errors and ``noise`` are given. ``stages`` are the nominal, re-tuned and
+    augmented model, in this order. ``effects`` are the effects that the nominal model lacks,
+    ``candidates`` all that were tried, and ``structure`` what remains in the residual of the last
+    model.
 
     ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
     gapless stretches. Without test recordings a part of each recording was held out instead.
@@ -152,6 +153,13 @@ class Conclusion:
     since: Estimate | None
     uncertain: Mapping[str, str]
     doubt: str
+
+    @property
+    def regressors(self) -> str:
+        """The signals from which ``structure`` predicts the residual, as in a sentence."""
+        if self.quantity == 'pressure':
+            return 'command, pressure and time'
+        return 'pressure, position, velocity and time'
 
     @property
     def joint(self) -> Joint:

@@ -125,14 +125,19 @@ def with_row(
 
 def _contractions(model: Joint, i: int, segments: Sequence[Segment]) -> dict[str, float]:
     """Return the limits of the contraction of muscle i at the recorded positions."""
-    positions = np.concatenate(
-        [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
-    )
+    positions = np.concatenate([_positions(s) for s in segments])
     contraction = statics.contraction(model, i, positions)
     return {
         'kappa_min': min(0.0, float(contraction.min())),
         'kappa_max': max(0.01, float(contraction.max())),
     }
+
+
+def _positions(segment: Segment) -> Array:
+    """Return the recorded positions of a run; that of its start if only pressures were."""
+    if isinstance(segment, HeldSegment):
+        return segment.position
+    return segment.target if segment.quantity == 'position' else np.array([segment.y0])
 
 
 def _muscle(model: Joint, q: Array, i: int, changes: dict[str, float]) -> Muscle:

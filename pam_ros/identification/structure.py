@@ -36,7 +36,8 @@ def structure_of(t: Array, residual: Array, inputs: Sequence[Array], floor: floa
 
     *inputs* are the pressure of each muscle, then position and velocity (n,) of the model, without
     the noise of the measurement: a regressor on measured signals would predict their noise from
-    itself. *floor* is the standard deviation of the noise.
+    itself. If only pressures were recorded, the command and the rate of the pressure take the
+    places of position and velocity. *floor* is the standard deviation of the noise.
     """
     period = float(np.median(np.diff(t)))
     stride = max(1, round(1.0 / (RATE * period)))

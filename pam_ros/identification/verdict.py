@@ -128,9 +128,13 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
                 f'{" and ".join(doubtful)}, constants far from the nominal ones explain the data '
                 f'as well. {floor}'
             )
+        # No constant of the model acts on a pressure.
+        before = (
+            nominal if answer.quantity == 'pressure' else f'{retuned} re-tuned ({nominal} nominal)'
+        )
         return (
             f'The model lacks {names}{since}: with {it} the error on held-out data falls from '
-            f'{retuned} re-tuned ({nominal} nominal) to {augmented}. {floor}'
+            f'{before} to {augmented}. {floor}'
         )
     if answer.verdict == Verdict.NO_MISSING_EFFECT:
         return f'Nothing is missing: the error on held-out data is {nominal}. {floor}'
@@ -152,7 +156,7 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
     return (
         'Something is missing that no effect of the library explains: the error on held-out data '
         f'is {augmented}{added}{before}, and {100 * answer.structure.ceiling:.0f} % of the '
-        'variance of the residual can be predicted from pressure, position, velocity and time.'
+        f'variance of the residual can be predicted from {answer.regressors}.'
         f'{since} {floor}'
     )
 
@@ -184,17 +188,22 @@ def of_problem(problem: str) -> list[str]:
     ]
 
 
-def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> list[str]:
+def of_absolute_pressures(
+    parameters: Mapping[str, Estimate], signal: str, quantity: str
+) -> list[str]:
     """Return a warning for each pressure offset that is minus the pressure of the air.
 
-    *signal* is the pressure that drives the recordings: ``pressure_command`` or ``pressure``.
+    *signal* is the pressure that drives the recordings: ``pressure_command`` or ``pressure``. If
+    their *quantity* is a pressure, that of the air is added to it, and not missing.
     """
+    offset, what, which = -ATMOSPHERE, 'minus the pressure', 'pressures of the recording'
+    if quantity == 'pressure':
+        offset, what, which, signal = ATMOSPHERE, 'the pressure', 'measured pressures', 'pressure'
     return [
-        f'{name} = {one.value:.6g} Pa is minus the pressure of the air: are the pressures of the '
-        f"recording absolute? Gauge pressures are expected: --column 'NAME={signal}_Pa-101325'"
+        f'{name} = {one.value:.6g} Pa is {what} of the air: are the {which} absolute? Gauge '
+        f"pressures are expected: --column 'NAME={signal}_Pa-101325'"
         for name, one in parameters.items()
-        if name.endswith('effects.pressure_offset.offset')
-        and abs(one.value + ATMOSPHERE) < WEATHER
+        if name.endswith('effects.pressure_offset.offset') and abs(one.value - offset) < WEATHER
     ]
 
 
@@ -269,4 +278,6 @@ def onset_text(answer: Conclusion) -> str:
 def _size(value: float, unit: str) -> str:
     if unit in ('m', 'rad') and value < 1.0:
         return f'{1e3 * value:.3g} m{unit}'
+    if unit == 'Pa' and value >= 1e3:
+        return f'{1e-3 * value:.3g} kPa'
     return f'{value:.3g} {unit}'

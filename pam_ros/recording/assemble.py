@@ -12,7 +12,7 @@ from pam_ros.errors import RecordingError
 from pam_ros.recording.of_joint import of_joint
 from pam_ros.recording.outliers import TooManyOutliersError, without_outliers
 from pam_ros.recording.quantities import ANGULAR
-from pam_ros.recording.recording import KINDS, OUTPUTS, Recording, interpolated
+from pam_ros.recording.recording import KINDS, OUTPUTS, PREDICTED, Recording, interpolated
 from pam_ros.recording.repeats import without_repeats
 from pam_ros.recording.series import GAP_SECONDS, Series, refuse_backwards
 
@@ -46,11 +46,13 @@ def assemble(
     A joint of several muscles has signals for each muscle, called ``agonist.pressure``; *muscles*
     are their names in the order of the joint.
 
-    All outputs get the stamps of the predicted signal: the position of a free load, or the force
-    at a prescribed length. The other signals are interpolated linearly. Samples before the first
-    command are left out. Samples at which a signal is missing are left out, too: they become gaps.
+    All outputs get the stamps of the predicted signal: the position of a free load, the force at
+    a prescribed length, or the pressure if nothing else was measured. The other signals are
+    interpolated linearly. Samples before the first command are left out. Samples at which a signal
+    is missing are left out, too: they become gaps.
     If *kind* is None it is found from the data: ``held`` if a force was measured and the position
-    is constant, else ``free``.
+    is constant; ``pressure`` if commands and pressures were recorded, and neither position nor
+    force; else ``free``.
 
     Raises RecordingError if a signal is missing that the kind needs.
     """
@@ -63,9 +65,13 @@ def assemble(
         raise MissingSignalError(
             f'{name} has neither pressure_command nor pressure: one of them is needed as the input'
         )
+    if kind is None and _kind_of(series) == 'pressure':
+        notes.append(
+            'neither a position nor a force was recorded: only the pressure path is identified'
+        )
     kind = _find_kind(name, series, kind)
-    predicted = 'position' if kind == 'free' else 'force'
-    needed = {predicted, 'position'}
+    predicted = PREDICTED[kind]
+    needed = {predicted} if kind == 'pressure' else {predicted, 'position'}
     if 'pressure_command' not in series:
         needed.add('pressure')
     _leave_out(name, series, unusable, needed, notes)
@@ -219,10 +225,17 @@ def _make_position(
 
 def _find_kind(name: str, series: dict[str, Series], kind: str | None) -> str:
     if kind is None:
-        still = 'position' in series and spread(series['position'].value) < AT_REST
-        kind = 'held' if still and 'force' in series else 'free'
+        kind = _kind_of(series)
     if kind not in KINDS:
         raise RecordingError(f'kind = {kind!r} is not known: give one of ' + ', '.join(KINDS))
+    if kind == 'pressure':
+        for quantity in ('pressure_command', 'pressure'):
+            if quantity not in series:
+                raise MissingSignalError(
+                    f'{name} has no {quantity}: both are needed for the pressure path alone (kind '
+                    'pressure)'
+                )
+        return kind
     if 'position' not in series:
         what = 'position or contraction, the predicted signal of a free load'
         if kind == 'held' or 'force' in series:
@@ -233,6 +246,15 @@ def _find_kind(name: str, series: dict[str, Series], kind: str | None) -> str:
             f'{name} has no force, the predicted signal at a prescribed length (kind held)'
         )
     return kind
+
+
+def _kind_of(series: dict[str, Series]) -> str:
+    """Return the kind of a recording with these signals."""
+    if 'position' in series:
+        is_still = spread(series['position'].value) < AT_REST
+        return 'held' if is_still and 'force' in series else 'free'
+    is_of_path = {'pressure_command', 'pressure'} <= {*series} and 'force' not in series
+    return 'pressure' if is_of_path else 'free'
 
 
 def _common(

@@ -65,6 +65,16 @@ def found_columns(header: Sequence[str], mapping: ColumnMapping, known: Collecti
     return said if 'position' in read else said + _of_joints(header, mapping)
 
 
+def may_have_output(header: Sequence[str], mapping: ColumnMapping) -> bool:
+    """Return whether a column that is not read may be a position or a force."""
+    likely = (
+        likely_target(name)
+        for name in header
+        if name not in mapping and mapping.meaning(name) is None
+    )
+    return any(one and _linear(one.quantity) in ('position', 'force') for one in likely)
+
+
 def _of_joints(header: Sequence[str], mapping: ColumnMapping) -> str:
     """Return a sentence on the columns that give positions of joints with names, if any."""
     named = [name for name in header if name not in mapping and _is_of_joint(name)]

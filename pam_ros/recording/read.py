@@ -16,7 +16,7 @@ from pam_ros.recording.bag.read import bag_files, read_bag
 from pam_ros.recording.bounds import Bounded, Bounds, bounds_of
 from pam_ros.recording.dataframe import series_of_frame
 from pam_ros.recording.direction import with_contraction_positive, with_tension_positive
-from pam_ros.recording.likely import found_columns
+from pam_ros.recording.likely import found_columns, may_have_output
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.quality import check
 from pam_ros.recording.recording import Recording
@@ -45,8 +45,9 @@ def read_recording(
     MATLAB file (.mat) of version 7 or before. *joint* is the Joint that was recorded: its lengths
     and pressures are needed to read a contraction, and show a signal in another unit. *mapping*
     gives the meaning of columns or topics with other names (:func:`pam_ros.read_mapping`). *kind*
-    is ``free`` for a free load or ``held`` for a prescribed length (found from the data if None).
-    *namespace* selects one of several rigs in a bag.
+    is ``free`` for a free load, ``held`` for a prescribed length, or ``pressure`` for commands and
+    pressures alone (found from the data if None). *namespace* selects one of several rigs in a
+    bag.
 
     *muscles* are the names of the muscles of a joint that has several, in their order (if empty,
     the order in which they appear in a CSV file). Columns that belong to a muscle have its name
@@ -139,6 +140,12 @@ def _assembled(
             raise
         found = found_columns(header, mapping, series)
         raise RecordingError(f'{error}; {found}') from error
+    if kind is None and recording.kind == 'pressure' and may_have_output(header, mapping):
+        raise RecordingError(
+            f'{name} has no position or force under a name that is known; '
+            f'{found_columns(header, mapping, series)}; or give --kind pressure (in Python '
+            "kind='pressure') to use only the commands and pressures"
+        )
     bounds.require(recording.name, len(recording.muscles) or 1, recording.unit)
     recording = with_contraction_positive(with_tension_positive(recording))
     warnings = check(recording, bounds)

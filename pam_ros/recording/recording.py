@@ -26,7 +26,8 @@ from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.series import Series
 
 Array = NDArray[np.float64]
-KINDS = ('free', 'held')
+KINDS = ('free', 'held', 'pressure')
+PREDICTED = {'free': 'position', 'held': 'force', 'pressure': 'pressure'}
 UNITS = ('m', 'rad')
 OUTPUTS = ('position', 'velocity', 'force', 'pressure')
 OF_MUSCLES = ('command', 'pressure')  # each muscle of a joint has these
@@ -53,7 +54,9 @@ class Recording:
     ``position``, ``velocity``, ``force``, ``pressure``
         (n,) m, m/s, N and Pa measured, or None; rad and rad/s if ``unit`` is ``rad``.
     ``kind``
-        ``free``: the load moves; ``held``: the length is prescribed, constant or moving.
+        ``free``: the load moves; ``held``: the length is prescribed, constant or moving;
+        ``pressure``: only the pressures were recorded, with their commands, such as those of a
+        regulator on a closed volume.
     ``gaps``
         Stretches (from, to) in s without samples: a simulation is restarted after each.
     ``warnings``

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.inputs import Input, is_constant, is_stretched, quantity_of
-from pam_ros.recording.recording import OUTPUTS, Recording
+from pam_ros.recording.inputs import Input, is_constant, is_stretched, outputs, quantity_of
+from pam_ros.recording.recording import OUTPUTS, PREDICTED, Recording
 
 Array = NDArray[np.float64]
 
@@ -18,6 +18,11 @@ FEWEST = 100  # samples
 # are taken for seconds are 1 s apart, seconds at 100 Hz that are taken for milliseconds 10 us.
 PERIODS = (5e-5, 0.25)
 HELD_PERIOD = 2.0  # s: at a prescribed length there is no oscillation that samples must resolve
+NEEDED = {
+    'free': ('position',),
+    'held': ('position', 'force'),
+    'pressure': ('command', 'pressure'),
+}
 CONTRACTIONS = (-0.2, 1.0)  # of a muscle of length l0; outside, the zero or the sign must be wrong
 EXCEL_DAYS = (3e4, 6e4)  # of the years 1982 to 2064
 TOO_LOW = 1e-3  # an input that stays below this share of p_max is in another unit
@@ -45,7 +50,7 @@ def refuse_unusable(
 
 def _refuse_missing(recording: Recording) -> None:
     """Refuse a recording that is made of arrays, and lacks one that a model must predict."""
-    for name in ('position', 'force') if recording.kind == 'held' else ('position',):
+    for name in NEEDED[recording.kind]:
         if getattr(recording, name) is None:
             raise RecordingError(f'{recording.name}: no {name} was recorded')
 
@@ -146,9 +151,9 @@ def _refuse_constant(recording: Recording, inputs: Sequence[Input]) -> None:
             f'{recording.name}: {names} {verb} constant at {levels}, so that no parameter can '
             'be identified'
         )
-    output = 'position' if recording.kind == 'free' else 'force'
-    if np.ptp(getattr(recording, output)) == 0.0:
-        raise RecordingError(
-            f'{recording.name}: {output} is constant while {inputs[0].name} changes: was the '
-            'sensor read?'
-        )
+    for name, values, _ in outputs(recording):
+        if name.rpartition('.')[2] == PREDICTED[recording.kind] and np.ptp(values) == 0.0:
+            raise RecordingError(
+                f'{recording.name}: {name} is constant while {inputs[0].name} changes: was the '
+                'sensor read?'
+            )

@@ -19,7 +19,7 @@ from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
-SCHEMA_VERSION = '2.9'
+SCHEMA_VERSION = '2.10'
 
 Table = dict[str, Any]
 

@@ -145,15 +145,18 @@ def _correlation(
     ]
 
 
-def _input(joint: Joint) -> str:
-    """Return the name of the one signal that drives *joint*."""
+def _input(result: Identification) -> str:
+    """Return the name of the one signal that drives the joint of *result*."""
+    joint = result.stages[0].model
+    if result.quantity == 'pressure':
+        return 'command'
     if len(joint.muscles) == 1:
         return 'pressure'
     return 'pressure difference' if np.min(drive_of(joint)) < 0.0 else 'mean pressure'
 
 
 def _axes(
-    joint: Joint, pressure: Scale, input_label: str
+    joint: Joint, pressure: Scale, name: str, input_label: str
 ) -> list[tuple[str, str, str, residual_plots.Pick]]:
     """Return (name, title, label, values) of what residuals are drawn against."""
     unit, speed = ('mrad', 'rad') if joint.is_revolute else ('mm', 'mm')
@@ -172,7 +175,7 @@ def _axes(
         ('velocity', 'Against velocity', f'velocity, {speed}/s', lambda run: fast * run.velocity),
         (
             'pressure',
-            'Against the input' if joint.is_driven else f'Against {_input(joint)}',
+            'Against the input' if joint.is_driven else f'Against {name}',
             input_label,
             lambda run: pressure.factor * run.drive,
         ),
@@ -191,20 +194,20 @@ def _axes(
 def _against(
     result: Identification, runs: list[Run], curves: list[Curve], scale: Scale
 ) -> list[Picture]:
-    joint = result.stages[0].model
+    joint, name = result.stages[0].model, _input(result)
     pressures = np.concatenate([run.drive for run in runs])
     pressure = scale_for('Pa', float(np.max(np.abs(pressures))))
-    input_label = f'{_input(joint)}, {pressure.unit}'
+    input_label = f'{name}, {pressure.unit}'
     if joint.is_driven:
         pressure, input_label = Scale(1.0, ''), 'input'
     found = [
         _narrow(
-            f'over-{name}',
+            f'over-{axis}',
             title,
             '',
             residual_plots.against(runs, curves, scale, pick, label),
         )
-        for name, title, label, pick in _axes(joint, pressure, input_label)
+        for axis, title, label, pick in _axes(joint, pressure, name, input_label)
         if np.ptp(np.concatenate([pick(run) for run in runs])) > 0.0
     ]
     found.append(

@@ -7,7 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.identification.data.segment import (
+    CommandedSegment,
+    HeldSegment,
+    PressureSegment,
+    Segment,
+)
 from pam_ros.identification.identification import Identification
 from pam_ros.report.diagnostics import Size, size_of
 from pam_ros.rig import statics
@@ -16,7 +21,7 @@ from pam_ros.rig.joint import Joint
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 STAGES = ('declared', 'retuned', 'augmented')
-DRAW_LIMIT = 1e6  # m, rad or N: limit at which a diverging simulation is clipped for drawing
+DRAW_LIMIT = 1e8  # m, rad, N or Pa: limit at which a diverging simulation is clipped for drawing
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,9 +33,9 @@ class Run:
     muscles) in Pa are the input of a free load (the commands if they were recorded), or the
     pressures at a prescribed length (measured, if they were recorded). position and velocity (m or
     rad, and per s) are those of the last model for a free load, without the noise of the
-    measurement, or measured ones at a prescribed length. drive (n,) in Pa is the input as one
-    signal, see :func:`drive_of`. since is the time in s from which effects act, None if from the
-    start.
+    measurement, or measured ones at a prescribed length, or 0 if only pressures were recorded.
+    drive (n,) in Pa is the input as one signal, see :func:`drive_of`; that of a pressure is its
+    own command. since is the time in s from which effects act, None if from the start.
     """
 
     name: str
@@ -76,11 +81,13 @@ def _run(
     is_test: bool,
     joint: Joint,
 ) -> Run:
-    if isinstance(segment, FreeSegment):
-        position = simulated[-1]
+    weights = drive_of(joint)
+    if isinstance(segment, CommandedSegment):
+        pressures, position = segment.commands(segment.t), simulated[-1]
+        if isinstance(segment, PressureSegment):
+            weights = np.eye(len(joint.muscles))[segment.muscle]
+            position = np.zeros_like(segment.t)
         velocity = np.asarray(np.gradient(position, segment.t), dtype=float)
-        at = np.searchsorted(segment.drive_t, segment.t, side='right') - 1
-        pressures = segment.drive[np.maximum(at, 0)]
     else:
         assert isinstance(segment, HeldSegment)
         position, velocity = segment.position, segment.velocity
@@ -95,7 +102,7 @@ def _run(
         pressures,
         position,
         velocity,
-        pressures @ drive_of(joint),
+        pressures @ weights,
     )
 
 

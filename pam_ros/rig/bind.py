@@ -41,7 +41,7 @@ _INNER = (
 _INNER_OF_FILLING = ('taken', 'balanced', 'supplied')
 _INNER_OF_RUNS = ('in_force', 'held_until', 'first_command')
 _LOOPS = ('advance', 'outputs')
-_LOOPS_OF_RUNS = ('simulate', 'simulate_held')
+_LOOPS_OF_RUNS = ('simulate', 'simulate_pressures', 'simulate_held')
 _STATELESS = ('delay', 'contraction', 'mass', 'damping')
 _WITH_MEMORY = ('reservoir', 'pressure', 'force', 'outside', 'drag')
 
@@ -53,6 +53,7 @@ class Kernel:
     advance: Function
     outputs: Function
     simulate: Function
+    simulate_pressures: Function
     simulate_held: Function
 
 

@@ -105,6 +105,28 @@ def run_over(
     return out
 
 
+def run_pressures(
+    kernel: Kernel,
+    layout: Layout,
+    x: Array,
+    t: Array,
+    q: Array,
+    command_t: Array,
+    command: Array,
+    step: float,
+) -> Array:
+    """Return the run of the chambers alone over the stamps t, from the state x.
+
+    The arguments are those of :func:`run_over`, without changes. The joint stays where it is.
+    """
+    out = np.empty((t.size, layout.run_columns))
+    acts = [command_t + delay for delay in delays_of(layout, q)]
+    kernel.simulate_pressures(
+        x, layout.scratch(), q, t, *acting_commands(acts, command), step, out
+    )
+    return out
+
+
 def _part(
     kernel: Kernel,
     layout: Layout,

@@ -3,7 +3,7 @@
 """Simulate one joint at given stamps: those of a recording or of a planned experiment."""
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,7 @@ from pam_ros.arguments import along, array, instance, number, refuse, refuse_sha
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
-from pam_ros.rig.changes import changes_of, refuse_onsets, run_over
+from pam_ros.rig.changes import changes_of, refuse_onsets, run_over, run_pressures
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import delays_of
@@ -80,11 +80,7 @@ def simulate(
     command = by_muscle('command', command, clock, command_t.size, layout.muscles)
     _warn_low('command', command, joint)
     velocity = number('velocity', velocity)
-    delays = delays_of(layout, q)
-    first = [
-        command[max(np.searchsorted(command_t + delay, t[0]) - 1, 0), i]
-        for i, delay in enumerate(delays)
-    ]
+    first = _acting(command_t, command, delays_of(layout, q), t[0])
     if position is None:
         s = equilibrium(start, first)
     else:
@@ -96,6 +92,51 @@ def simulate(
     kernel, changes = bind(layout, joint.active), changes_of(joint, float(t[0]))
     out = run_over(kernel, layout, x, t, q, changes, command_t, command, step, forces=True)
     return trajectory(t, out, joint, 'command', command)
+
+
+def simulate_pressure(
+    joint: Joint,
+    t: ArrayLike,
+    command: ArrayLike,
+    command_t: ArrayLike | None = None,
+    *,
+    step: float = 1e-3,
+) -> Array:
+    """Simulate the pressures in the chambers of a joint at the stamps *t*, in Pa gauge.
+
+    The pressure path is simulated alone, since it does not depend on the motion. t, command and
+    command_t are those of :func:`simulate`; the chambers start at t[0] after a long rest under the
+    commands that act then. The result is (n,) for one muscle and (n, muscles) for several. Steps
+    are at most *step* s. Raises ParameterError if an effect has an onset, shapes do not fit,
+    stamps go back or a number is not finite. Warns of commands that seem to be in kPa or bar.
+    """
+    instance('joint', joint, Joint, 'a Joint')
+    refuse_onsets(joint, 'simulate_pressure')
+    if number('step', step) <= 0.0:
+        refuse('step', step, 'more than 0 s')
+    t = stamps('t', t)
+    clock, command_t = (
+        ('t', t) if command_t is None else ('command_t', stamps('command_t', command_t))
+    )
+    q, layout = joint.parameters(), joint.layout
+    command = by_muscle('command', command, clock, command_t.size, layout.muscles)
+    _warn_low('command', command, joint)
+    first = _acting(command_t, command, delays_of(layout, q), t[0])
+    x = start_state(layout, q, first, 0.0, 0.0, joint.all_present)
+    kernel = bind(layout, joint.active)
+    out = run_pressures(kernel, layout, x, t, q, command_t, command, step)
+    pressure: Array = out[:, at.RUN_P :: 2]
+    return pressure[:, 0] if layout.muscles == 1 else pressure
+
+
+def _acting(
+    command_t: Array, command: Array, delays: Sequence[float], start: float
+) -> list[float]:
+    """Return the command (muscles,) in Pa of each muscle that acts just before *start* s."""
+    return [
+        float(command[max(np.searchsorted(command_t + delay, start) - 1, 0), i])
+        for i, delay in enumerate(delays)
+    ]
 
 
 def simulate_held(

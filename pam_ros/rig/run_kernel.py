@@ -8,6 +8,8 @@ is the time at which it acts in the chamber: it already includes dead times.
 
 from math import ceil, exp
 
+from pam_ros.effects.base import ENOUGH
+from pam_ros.rig.filling import supplied
 from pam_ros.rig.kernel import (
     begin,
     coefficient,
@@ -33,8 +35,10 @@ from pam_ros.rig.layout import (
     V,
 )
 from pam_ros.rig.unbound import (
+    HAS_RESERVOIR,
     IS_DRAGGED,
     LOAD,
+    MEMORY_FROM,
     MUSCLES,
     TRANSMISSION,
     WIDTH,
@@ -103,6 +107,43 @@ def simulate(
             if forces:
                 p = x[MUSCLE + i, P]
                 out[n, RUN_F + 2 * i] = net_force(s, v, i, p, now, 0.0, inertia, x, xn, q)
+
+
+def simulate_pressures(
+    x: Row, xn: Row, q: Row, t: Row, at: Row, u: Row, longest: float, out: Row
+) -> None:
+    """Simulate the pressures in the chambers of one joint, whose motion they do not depend on.
+
+    The arguments are those of :func:`simulate`, and so are the pressures, except for rounding: the
+    laws of the path are exact over a step, or (a choked flow) of second order. The joint rests at
+    its coordinate in x; out (n, columns of a run) receives no forces.
+    """
+    begin(x, xn)
+    c = first_command(at, t[0])
+    now = t[0]
+    for n in range(t.shape[0]):
+        while now < t[n]:
+            c = in_force(at, c, now)
+            end = held_until(at, c, t[n])
+            steps = max(1, ceil((end - now) / longest - 1e-6))
+            h = (end - now) / steps
+            for k in range(steps):
+                begun = now + k * h
+                limit = ENOUGH
+                if HAS_RESERVOIR:
+                    limit = supplied(u[c], begun, h, x, xn, q)
+                    for column in range(JOINT_HIDDEN, WIDTH):
+                        x[JOINT, column] = xn[JOINT, column]
+                for i in range(MUSCLES):
+                    r = MUSCLE + i
+                    p_in = min(u[c, i], limit)
+                    x[r, P] = pressure_chain(p_in, begun + h, h, x[r], xn[r], q[r])
+                    for column in range(HIDDEN, MEMORY_FROM):
+                        x[r, column] = xn[r, column]
+            now = end
+        out[n, RUN_S], out[n, RUN_V] = x[JOINT, S], 0.0
+        for i in range(MUSCLES):
+            out[n, RUN_P + 2 * i], out[n, RUN_F + 2 * i] = x[MUSCLE + i, P], 0.0
 
 
 def simulate_held(

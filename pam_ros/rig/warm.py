@@ -68,6 +68,7 @@ def _run() -> str:
         kernel = bind(layout, active)
         x, xn = start_state(layout, q, u[0], 0.0, 0.0), layout.scratch()
         kernel.simulate(x, xn, q, t, t, u, 1e-3, out, True)
+        kernel.simulate_pressures(x, xn, q, t, t, u, 1e-3, out)
         kernel.simulate_held(x, xn, q, t, u, t, t, 1e-3, out)
     return code_cache.warned()
 

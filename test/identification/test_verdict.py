@@ -262,7 +262,8 @@ def test_a_rig_that_is_not_excited_by_its_position_has_no_command(friction, mode
 )
 def test_an_offset_of_the_ambient_pressure_is_reported(offset, is_reported):
     name = 'up.effects.pressure_offset.offset'
-    sentences = of_absolute_pressures({name: results.estimate(offset, 0.01, 'Pa')}, 'pressure')
+    parameters = {name: results.estimate(offset, 0.01, 'Pa')}
+    sentences = of_absolute_pressures(parameters, 'pressure', 'position')
     assert bool(sentences) is is_reported
     if sentences:
         assert "'NAME=pressure_Pa-101325'" in sentences[0]

@@ -72,6 +72,26 @@ def test_a_length_that_is_moved_is_prescribed_if_the_user_states_it():
     assert one.command is not None
 
 
+def test_commands_and_pressures_alone_are_a_pressure_path():
+    series = free(position=None, pressure=signal('p', 2e5 + 1e5 * np.cos(T)))
+    one = assemble('log', series, [])
+    assert one.kind == 'pressure'
+    assert one.position is None
+    np.testing.assert_array_equal(one.pressure, series['pressure'].value)
+    assert one.warnings == (
+        'neither a position nor a force was recorded: only the pressure path is identified',
+    )
+    # A recording with a position is one if its user states it.
+    whole = assemble('log', free(pressure=series['pressure']), [], kind='pressure')
+    assert whole.kind == 'pressure'
+    assert whole.warnings == ()
+
+
+def test_a_pressure_path_needs_a_pressure():
+    with pytest.raises(RecordingError, match='log has no pressure: both are needed'):
+        assemble('log', free(), [], kind='pressure')
+
+
 def test_the_first_sample_is_time_zero():
     late = {name: Series(one.source, one.t + 1.7e9, one.value) for name, one in free().items()}
     one = assemble('log', late, [])

@@ -129,6 +129,16 @@ def test_the_options_of_the_sentence_make_the_file_readable(tmp_path, names, kin
     assert recording.force is not None
 
 
+def test_an_unknown_name_of_a_position_does_not_make_a_recording_one_of_pressures(tmp_path):
+    file = written(
+        tmp_path / 'bench.csv', ('t_s', 'pressure_command_bar', 'x[mm]', 'pressure_kPa')
+    )
+    with pytest.raises(RecordingError, match='no position or force under a name') as refused:
+        read_recording(file)
+    assert "--column 'x[mm]=position_mm'; or give --kind pressure" in str(refused.value)
+    assert read_recording(file, kind='pressure').kind == 'pressure'
+
+
 def test_the_page_shows_the_sentence(tmp_path):
     file = written(tmp_path / 'bench.csv', ('t [s]', 'p_cmd[bar]', 'pos_mm', 'adc'))
     with pytest.raises(RecordingError) as refused:

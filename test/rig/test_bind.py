@@ -66,7 +66,7 @@ def test_kernels_on_disk_are_distinguished_by_code_and_place():
     assert loops((one,), ()) != names
     first = effect_of(SOURCE, 'first')
     assert loops((first, one), (one,)) != names  # the parameter is at another place
-    assert len(set(names)) == 4
+    assert len(set(names)) == len(names)
 
 
 @pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')

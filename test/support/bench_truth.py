@@ -39,6 +39,15 @@ def free(*effects, name='truth.csv', **settings):
     return recording_of(record(effects, **{'rate': 100.0, 'duration': 30.0, **settings}), name)
 
 
+def of_pressures(*effects, name='truth.csv', **settings):
+    """Return the recording of the commands and the pressure of a free load; see ``free``."""
+    true = record(effects, **{'rate': 100.0, 'duration': 30.0, **settings})
+    t = true.t_s - true.t_s[0]
+    return Recording(
+        name, t, t, true.pressure_command_pa, pressure=true.pressure_pa, kind='pressure'
+    )
+
+
 def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6, before=()):
     """Return the recording of a free load of 20 kg on which an effect begins at *onset* s.
 

@@ -8,7 +8,7 @@ recordings: each may have a single step up, and a single step down at its end, w
 fit would use.
 A muscle at a prescribed length has no motion of its own, and such a recording often has a single
 rise and a single fall of the pressure. Then the parts are interleaved blocks of time, so that each
-part contains all of the excitation.
+part contains all of the excitation. It is the same if only pressures were recorded.
 """
 
 from collections.abc import Sequence
@@ -28,7 +28,7 @@ from pam_ros.recording.recording import Recording
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 FEWEST = 16  # smallest number of samples of a run that can be fitted
-BLOCKS = 20  # of a recording at a prescribed length: 3 s of a minute
+BLOCKS = 20  # of a recording without a free motion: 3 s of a minute
 GOLDEN = 0.6180339887  # the fractional parts of its multiples fill 0 to 1 without a period
 FIT, CHOOSE, JUDGE = range(3)
 
@@ -104,7 +104,7 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
         if not segments:
             continue
         start, end = segments[0].t[0], segments[-1].t[-1]
-        if recording.kind == 'held':
+        if recording.kind != 'free':
             places = np.arange(1, BLOCKS) / BLOCKS
             draws = _draws(BLOCKS)
         elif deciding:
@@ -124,7 +124,7 @@ def _deciding(recordings: Sequence[Recording], share: float) -> set[int]:
 
     Their duration is at most this *share* of the total duration.
     """
-    if recordings[0].kind == 'held':
+    if recordings[0].kind != 'free':
         return set()
     times = [recording.duration for recording in recordings]
     found: set[int] = set()

@@ -15,6 +15,7 @@ from scipy.signal import savgol_filter
 from pam_ros.errors import RecordingError
 from pam_ros.identification.data.noise import noise_of
 from pam_ros.recording.recording import Recording
+from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
@@ -49,20 +50,22 @@ class Segment(ABC):
 
     @property
     @abstractmethod
+    def column(self) -> int:
+        """The column of its target in the runs of the simulator."""
+
+    @property
+    @abstractmethod
     def first_pressures(self) -> Array:
         """Pressure in Pa of each muscle, commanded or measured, at the start of the run."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class FreeSegment(Segment):
-    """A run of a rig whose load moves: commands are the input, position in m or rad is the output.
+class CommandedSegment(Segment):
+    """A run whose input are commands.
 
     drive_t (m,), drive (m, muscles): stamps in s and values in Pa of the commands. They may have
     acted earlier or later by a constant time, whose standard deviation is drive_spread in s.
     """
-
-    kind: ClassVar[str] = 'free'
-    quantity: ClassVar[str] = 'position'
 
     drive_t: Array
     drive: Array
@@ -71,8 +74,43 @@ class FreeSegment(Segment):
     @property
     def first_pressures(self) -> Array:
         """Commanded pressure in Pa of each muscle at the start of the run."""
-        before = int(np.searchsorted(self.drive_t, self.t[0], side='right')) - 1
-        return np.asarray(self.drive[max(before, 0)])
+        return np.asarray(self.commands(self.t[:1])[0])
+
+    def commands(self, t: Array) -> Array:
+        """Return the commands (n, muscles) in Pa that act at the times t (n,) in s."""
+        before = np.searchsorted(self.drive_t, t, side='right') - 1
+        return np.asarray(self.drive[np.maximum(before, 0)])
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FreeSegment(CommandedSegment):
+    """A run of a rig whose load moves: the output is its position in m or rad."""
+
+    kind: ClassVar[str] = 'free'
+    quantity: ClassVar[str] = 'position'
+
+    @property
+    def column(self) -> int:
+        """The column of the coordinate."""
+        return at.RUN_S
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PressureSegment(CommandedSegment):
+    """A run of the pressure path alone: the output is the pressure in a chamber in Pa.
+
+    ``muscle`` is the number of the muscle whose chamber it is.
+    """
+
+    kind: ClassVar[str] = 'pressure'
+    quantity: ClassVar[str] = 'pressure'
+
+    muscle: int = 0
+
+    @property
+    def column(self) -> int:
+        """The column of the pressure in its muscle."""
+        return at.RUN_P + 2 * self.muscle
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -89,6 +127,11 @@ class HeldSegment(Segment):
     pressure: Array
     position: Array
     velocity: Array
+
+    @property
+    def column(self) -> int:
+        """The column of the force of the one muscle."""
+        return at.RUN_F
 
     @property
     def first_pressures(self) -> Array:
@@ -123,7 +166,7 @@ def _require_joint(recording: Recording, joint: Joint) -> None:
             f'{recording.name} is a recording of {named} muscle(s), and the joint has {count}'
         )
     unit = joint.transmission.equations.unit
-    if recording.unit != unit:
+    if recording.kind != 'pressure' and recording.unit != unit:
         raise RecordingError(
             f'{recording.name}: the position is in {recording.unit}, and the joint moves in {unit}'
         )
@@ -141,10 +184,36 @@ def segments_of(recordings: Sequence[Recording]) -> list[Segment]:
     """
     require_one_kind(recordings)
     return [
-        replace(_segment(part), recording=k, numbers=recording.numbers)
+        replace(segment, recording=k, numbers=recording.numbers)
         for k, recording in enumerate(recordings)
         for part in recording.segments()
         if part.t.size > 3
+        for segment in (_of_chambers(part) if part.kind == 'pressure' else [_segment(part)])
+    ]
+
+
+def _of_chambers(part: Recording) -> list[Segment]:
+    """Return the runs of the pressures in *part*, one for each muscle."""
+    for name in ('command', 'pressure'):
+        if getattr(part, name) is None:
+            raise RecordingError(f'{part.name}: no {name} was recorded')
+    drive_t, drive = part.drive(1e-3)
+    assert part.pressure is not None
+    return [
+        PressureSegment(
+            name=f'{part.name} ({part.muscles[i]})' if part.muscles else part.name,
+            unit='Pa',
+            t=part.t,
+            target=target,
+            fit=np.ones(part.t.size, dtype=bool),
+            y0=0.0,
+            v0=0.0,
+            drive_t=drive_t,
+            drive=drive.reshape(drive_t.size, -1),
+            drive_spread=part.command_spread,
+            muscle=i,
+        )
+        for i, target in enumerate(part.pressure.reshape(part.t.size, -1).T)
     ]
 
 

@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.identification.data.segment import CommandedSegment, HeldSegment, Segment
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
@@ -80,7 +80,7 @@ def thinned(segment: Segment, longest: float) -> Segment:
                 for name in ('t', 'target', 'fit', 'pressure', 'position', 'velocity')
             },
         )
-    assert isinstance(segment, FreeSegment)
+    assert isinstance(segment, CommandedSegment)
     stride = max(1, int(longest / period + ROOM))
     t = segment.t[::stride]
     drive_t, drive = segment.drive_t, segment.drive

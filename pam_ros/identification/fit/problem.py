@@ -17,7 +17,13 @@ from numpy.typing import NDArray
 
 from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect
-from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.identification.data.segment import (
+    CommandedSegment,
+    FreeSegment,
+    HeldSegment,
+    PressureSegment,
+    Segment,
+)
 from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
 from pam_ros.identification.fit.of_rig import OfRig, fill, given_numbers
@@ -37,7 +43,7 @@ from pam_ros.identification.fit.unknowns import (
 )
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
-from pam_ros.rig.changes import Change, run_over
+from pam_ros.rig.changes import Change, run_over, run_pressures
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
 from pam_ros.rig.start import behind_reservoir, fill_chambers, start_state
@@ -45,7 +51,8 @@ from pam_ros.rig.start import behind_reservoir, fill_chambers, start_state
 Array = NDArray[np.float64]
 T = TypeVar('T')
 DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's typical size
-DIVERGED = 1e6  # m, rad or N: the residual of a simulation without a finite result
+# Residual of a simulation without a finite result, beyond that of any rig: in m, rad or N, or Pa.
+DIVERGED, DIVERGED_PRESSURE = 1e6, 1e12
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +115,8 @@ class Problem:
         """Return the free run of every segment, or of segment *only*, at u.
 
         Each is (n, 2 + 2 muscles): position and velocity (m or rad), then for each muscle the
-        chamber pressure in Pa and, in runs at a prescribed length, the force in N.
+        chamber pressure in Pa and, in runs at a prescribed length, the force in N. In runs of the
+        pressure path the joint does not move.
         """
         shape, shared = (self.layout.rows, self.layout.parameters), self.row_at(u)
         kernel, layout = bind(self.layout, self.active), self.layout
@@ -123,6 +131,9 @@ class Problem:
                 x = self._start(k, first, u)
                 given = s.drive_t, s.drive, self.step
                 out = run_over(kernel, layout, x, s.t, first, changes, *given, forces=False)
+            elif isinstance(s, PressureSegment):
+                given = s.drive_t, s.drive, self.step
+                out = run_pressures(kernel, layout, self._start(k, q, u), s.t, q, *given)
             elif isinstance(s, HeldSegment):
                 x, xn = self._start(k, q, u), layout.scratch()
                 out = np.empty((s.t.size, layout.run_columns))
@@ -176,18 +187,19 @@ class Problem:
     def predict(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the simulated target of every segment, or of segment *only*, at u.
 
-        If commands acted earlier by d than their stamps, the motion did, too: s(t + d) = s + v d.
+        If commands acted earlier by d than their stamps, the motion did, too: s(t + d) = s + v d,
+        and so did the pressure.
         """
-        column = at.RUN_S if self.segments[0].kind == 'free' else at.RUN_F
         levels = {of.run: unknown.value(u[k]) for of, unknown, k in self._of(RunLevel)}
         early = sum(unknown.value(u[k]) for _, unknown, k in self._of(CommandTime))
         which = range(len(self.segments)) if only is None else (only,)
         found = []
         for run, out in zip(which, self.runs(u, only), strict=True):
             s = self.segments[run]
-            simulated: Array = out[:, column] + levels.get(run, 0.0)
-            if early and isinstance(s, FreeSegment) and s.drive_spread:
-                simulated += early * out[:, at.RUN_V]
+            simulated: Array = out[:, s.column] + levels.get(run, 0.0)
+            if early and isinstance(s, CommandedSegment) and s.drive_spread:
+                is_free = isinstance(s, FreeSegment)
+                simulated += early * (out[:, at.RUN_V] if is_free else np.gradient(simulated, s.t))
             found.append(simulated)
         return found
 
@@ -202,9 +214,10 @@ class Problem:
     def _left(self, run: int, simulated: Array) -> Array:
         s = self.segments[run]
         e: Array = (simulated - s.target)[s.fit]
-        if np.max(np.abs(e), initial=0.0) <= DIVERGED:  # false also for NaN
+        most = DIVERGED_PRESSURE if s.quantity == 'pressure' else DIVERGED
+        if np.max(np.abs(e), initial=0.0) <= most:  # false also for NaN
             return e
-        return np.clip(np.nan_to_num(e, nan=DIVERGED), -DIVERGED, DIVERGED)
+        return np.clip(np.nan_to_num(e, nan=most), -most, most)
 
     def jacobian(
         self, u: Array, r: Array, pool: Executor | None = None, only: Sequence[int] | None = None

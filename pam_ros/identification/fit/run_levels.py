@@ -36,7 +36,7 @@ def level_unknowns(segments: Sequence[Segment], joint: Joint) -> list[Unknown]:
     The runs are in the order of their recording, of the single muscle of *joint*. A run whose
     length changes has no level.
     """
-    if segments[0].kind == 'free':
+    if segments[0].kind != 'held':
         return []
     earlier = sorted(k for runs in repeats(segments, joint.muscle.l0) for k in runs[:-1])
     if not earlier:

@@ -14,7 +14,7 @@ from math import exp, log, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.data.segment import FreeSegment, Segment, start_of
+from pam_ros.identification.data.segment import CommandedSegment, Segment, start_of
 from pam_ros.identification.fit.of_rig import OfRig
 from pam_ros.identification.fit.places import INITIAL, Place, names_of_muscles
 from pam_ros.muscle.constants import CONSTANTS
@@ -268,7 +268,8 @@ def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
 
 def time_unknowns(segments: Sequence[Segment]) -> list[Unknown]:
     """Return the time between the stamps and the effect of commands, if it is unknown."""
-    spread = max((s.drive_spread for s in segments if isinstance(s, FreeSegment)), default=0.0)
+    commanded = [s for s in segments if isinstance(s, CommandedSegment)]
+    spread = max((s.drive_spread for s in commanded), default=0.0)
     return [Unknown(CommandTime(), 0.0, spread, prior=1.0)] if spread else []
 
 

@@ -105,7 +105,8 @@ def likely_mistake(setting: Setting, muscles: Mapping[str, Muscle]) -> Doubt | N
         return None
     found: list[tuple[float, str]] = []
     joint, runs = setting.joint, nominal.segments
-    for reading in (*_readings(joint, runs[0]), *_with_muscles(joint, muscles)):
+    others = {} if setting.is_of_pressures else muscles
+    for reading in (*_readings(joint, runs[0]), *_with_muscles(joint, others)):
         other = replace(nominal, segments=tuple(map(reading.of_run, runs)))
         if reading.joint is not None:
             other = _of_joint(other, reading.joint)
@@ -136,6 +137,16 @@ def _of_joint(problem: Problem, joint: Joint) -> Problem:
 
 def _readings(joint: Joint, run: Segment) -> Iterator[Reading]:
     """Return the other readings of runs like *run* of *joint*."""
+    if run.quantity == 'pressure':
+        for factor, right, wrong in _both_ways(PRESSURE):
+            text = (
+                f'the command is {factor:.4g} times as large, as a pressure in {right} that was '
+                f'read as one in {wrong}'
+            )
+            yield Reading(text, _scaled('command', factor))
+        if len(joint.muscles) == 2:
+            yield Reading('the commands of the two muscles are exchanged', _exchanged)
+        return
     is_angle = run.unit == 'rad'
     units = [('pressure', PRESSURE), ('position', ANGLE if is_angle else LENGTH)]
     if run.kind == 'held':
@@ -183,6 +194,7 @@ def _scaled(quantity: str, factor: float) -> Callable[[Segment], Segment]:
 
     def scaled(run: Segment) -> Segment:
         names = {
+            'command': ('drive',),
             'pressure': ('drive', 'pressure'),
             'position': ('position', 'velocity', 'y0', 'v0'),
         }.get(quantity, ())

@@ -53,13 +53,13 @@ MANY = 3.0  # times as many samples as a search needs, from which on rests are s
 
 @dataclass(frozen=True)
 class Errors:
-    """RMSE in m, rad or N over the part that was fitted, and over the part for choices.
+    """RMSE in m, rad, N or Pa over the part that was fitted, and over the part for choices.
 
     ``free_run`` is that of the free run over *choose*. The others are those of the same run,
     except for a load without a spring, for which they are those of short runs. At prescribed
-    lengths the parts are interleaved, so that initial memories that suit the fit suit *choose*,
-    too. Therefore the run for *choose* begins there with memories at rest, as in another
-    recording.
+    lengths, and if only pressures were recorded, the parts are interleaved, so that initial
+    memories that suit the fit suit *choose*, too. Therefore the run for *choose* begins there with
+    memories at rest, as in another recording.
     """
 
     fit: float
@@ -149,8 +149,18 @@ class Setting:
         times = ceil(self._size(self._brief, usual) / self.budget.samples)
         return max(usual, min(times * usual, longest))
 
+    @property
+    def is_of_pressures(self) -> bool:
+        """Whether only pressures were recorded, which do not depend on muscles and load."""
+        return self.parts[0].segment.quantity == 'pressure'
+
     def coarse_period(self, longest: float = PERIODS[1]) -> float:
-        """Return the period in s that the fastest oscillation in any recording allows."""
+        """Return the period in s that the fastest oscillation in any recording allows.
+
+        A pressure path does not oscillate: its samples are thinned only as far as necessary.
+        """
+        if self.is_of_pressures:
+            return PERIODS[1] if longest > PERIODS[1] else PERIODS[0]
         numbers = {tuple(sorted(part.segment.numbers.items())) for part in self.parts}
         joints = [joint_with(self.joint, dict(own)) for own in numbers]
         return min(coarse_period(joint, longest) for joint in joints)
@@ -227,7 +237,8 @@ class Setting:
         starts = [*time_unknowns(runs), *run_unknowns(runs, sigma)]
         if self.onset is not None:
             starts.append(onset_unknown(runs, self.onset))
-        unknowns = [*spread_unknowns(self.joint, self.muscles, self.uncertain), *starts, *levels]
+        retuned = spread_unknowns(self.joint, self.muscles, self.uncertain)
+        unknowns = [*([] if self.is_of_pressures else retuned), *starts, *levels]
         return Problem(
             tuple(runs),
             self.joint.layout,
@@ -270,14 +281,20 @@ class Setting:
             _, far = _rms_of(known, simulate_on(solution, whole, without=OF_RUNS))
             return Errors(fit, choose, far)
         fit, choose = _rms_of(known, simulate_on(solution, whole))
-        if known[0].segment.kind == 'held':
+        if known[0].segment.kind != 'free':
             _, choose = _rms_of(known, simulate_on(solution, whole, without=(MemoryStart,)))
         return Errors(fit, choose, choose)
 
     @cached_property
     def places(self) -> dict[str, Place]:
-        """Every place at which an effect of the library can act, by its name."""
-        return places_of(self.joint, self.muscles)
+        """Every place at which an effect of the library can act, by its name.
+
+        If only pressures were recorded, these are the effects in the pressure path.
+        """
+        every = places_of(self.joint, self.muscles)
+        if not self.is_of_pressures:
+            return every
+        return {name: one for name, one in every.items() if one.effect.acts_on_pressure()}
 
     def related(self, name: str, effects: Iterable[str]) -> list[str]:
         """Return the places of *effects* that belong to the place called *name*.

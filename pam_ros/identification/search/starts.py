@@ -17,7 +17,7 @@ from pam_ros.identification.fit.solve import (
     levenberg_marquardt,
     with_nominal_constants,
 )
-from pam_ros.identification.fit.unknowns import MemoryStart
+from pam_ros.identification.fit.unknowns import MemoryStart, OfEffect
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.rig import layout as at
 
@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 # An unknown has an influence if it can change the residuals by so many standard deviations of the
 # noise. A smaller influence is not visible in a score: ln(1 + 0.3^2) = 0.09.
 LEAST_INFLUENCE = 0.3
+WEAKER = 1.0 / 3.0  # of the strengths of a rival, with which fits also begin
 
 
 def screen(parent: Model, place: Place, setting: Setting) -> list[Solution]:
@@ -33,8 +34,9 @@ def screen(parent: Model, place: Place, setting: Setting) -> list[Solution]:
     They begin with each start of the effect, with the parent's discrepancy and with none (a slow
     discrepancy describes slow errors, and a fit that begins with it may not find an effect that
     causes them). With the starts that are the best with either of them, they also begin at the
-    nominal constants (re-tuned constants may compensate for the missing effect). The onset, if
-    there is one, keeps its value.
+    nominal constants (re-tuned constants may compensate for the missing effect). If the parent has
+    a rival of the effect, which may have taken its place, they also begin with a weaker rival. The
+    onset, if there is one, keeps its value.
     """
     starts = [*place.fit_starts, *guessed(parent, place)]
     found = []
@@ -47,6 +49,10 @@ def screen(parent: Model, place: Place, setting: Setting) -> list[Solution]:
             found += [some[k] for k in order[: setting.budget.fits]]
             best += order[:1]
         starts = [starts[k] for k in dict.fromkeys(best)]
+    for known in _with_weaker_rivals(parent, place, setting):
+        for start in place.fit_starts:
+            one = extended(known, place, start, setting)
+            found.append(_screened(replace(one, discrepancy=WHITE), setting))
     return sorted((_with_own_discrepancy(one) for one in found), key=lambda one: one.score)
 
 
@@ -64,6 +70,31 @@ def _grounds(solution: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
         (solution, [*own, WHITE]),
         *((one, [WHITE]) for one in with_nominal_constants(solution)),
     ]
+
+
+def _with_weaker_rivals(parent: Model, place: Place, setting: Setting) -> list[Solution]:
+    """Return the solution of *parent* with the rivals of the effect at *place* that it has weaker.
+
+    The list is empty if it has none. A lag that was fitted alone is as long as the lag and the
+    dead time of the rig together, for example, and a fit from there ends near by.
+    """
+    rivals = {
+        name
+        for name in parent.effects
+        for other in (setting.places[name],)
+        if {*other.rows} & {*place.rows}
+        and (other.effect.name in place.effect.rivals or place.effect.name in other.effect.rivals)
+    }
+    known = parent.solution
+    u = known.u.copy()
+    for k, unknown in enumerate(known.problem.unknowns):
+        of = unknown.of
+        if isinstance(of, OfEffect) and of.place in rivals:
+            about = next(p for p in setting.places[of.place].parameters if p.name == of.parameter)
+            u[k] *= WEAKER if about.strength else 1.0
+    if np.array_equal(u, known.u):
+        return []
+    return [initial_solution(known.problem, u, known.discrepancy)]
 
 
 def _with_own_discrepancy(solution: Solution) -> Solution:
@@ -124,11 +155,10 @@ def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
     longest = max(range(len(problem.segments)), key=lambda k: problem.segments[k].t.size)
     s = problem.segments[longest]
     out = problem.runs(parent.solution.u, longest)[0]
-    is_free = s.kind == 'free'
-    left = s.target - out[:, at.RUN_S if is_free else at.RUN_F]
+    left = s.target - out[:, s.column]
     # Samples that are not fitted are not used: the residual is interpolated there.
     residual = np.interp(s.t, s.t[s.fit], left[s.fit])
-    position = s.target if is_free else out[:, at.RUN_S]
+    position = s.target if s.quantity == 'position' else out[:, at.RUN_S]
     # The contraction of one muscle in line with the load; of other joints the angle itself.
     length = problem.row[at.LENGTH]
     pressure = out[:, at.RUN_P :: 2].max(axis=1)
