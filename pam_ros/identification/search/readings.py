@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from pam_ros.errors import ParameterError
+from pam_ros.errors import PamError, ParameterError
 from pam_ros.identification.data.segment import FreeSegment, Segment
 from pam_ros.identification.data.thinning import coarse_period, longest_step
 from pam_ros.identification.fit.problem import Problem
@@ -107,10 +107,11 @@ def likely_mistake(setting: Setting, muscles: Mapping[str, Muscle]) -> Doubt | N
     joint, runs = setting.joint, nominal.segments
     others = {} if setting.is_of_pressures else muscles
     for reading in (*_readings(joint, runs[0]), *_with_muscles(joint, others)):
-        other = replace(nominal, segments=tuple(map(reading.of_run, runs)))
-        if reading.joint is not None:
-            other = _of_joint(other, reading.joint)
-        found.append((_error(other), reading.text))
+        with suppress(PamError):  # there is no rest position, or no joint with such values
+            other = replace(nominal, segments=tuple(map(reading.of_run, runs)))
+            if reading.joint is not None:
+                other = _of_joint(other, reading.joint)
+            found.append((_error(other), reading.text))
     least = min(found)[0]
     if least > min(LEFT * before, FOLLOWS):
         return None
@@ -212,10 +213,13 @@ def _turned(joint: Joint) -> Callable[[Segment], Segment]:
 
     def turned(run: Segment) -> Segment:
         assert isinstance(run, FreeSegment)
-        # Commands of a thinned run are not evenly spaced.
-        at = np.maximum(np.searchsorted(run.drive_t, run.t, side='right') - 1, 0)
-        at_rest = statics.equilibrium(joint, np.median(run.drive[at], axis=0))
-        zero = at_rest + float(np.median(run.target))
+        middle = float(np.median(run.target))
+        # A load without a spring is at rest anywhere. Commands of a thinned run are not evenly
+        # spaced.
+        at_rest = middle
+        if not joint.is_driven:
+            at_rest = statics.equilibrium(joint, np.median(run.commands(run.t), axis=0))
+        zero = at_rest + middle
         return _changed(_changed(run, ('target', 'y0'), lambda y: zero - y), ('v0',), np.negative)
 
     return turned

@@ -8,13 +8,15 @@ from functools import partial
 import numpy as np
 import pytest
 
+from pam_ros.effects import ViscousFriction
 from pam_ros.identification.search.readings import likely_mistake
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm
+from pam_ros.rig.run import simulate
 from pam_ros.rig.transmissions import Pulley
-from pam_ros.settings.nominal import package_muscles
+from pam_ros.settings.nominal import nominal_joint, package_muscles
 from support import bench_truth
 from support.searches import setting_of
 from truth import effect
@@ -151,3 +153,13 @@ def test_a_muscle_at_prescribed_lengths(change, words, pool):
     assert (doubt is not None) == bool(words)
     if doubt is not None:
         assert all(word in doubt.reason for word in words), doubt.reason
+
+
+def test_a_load_without_a_rest_position_raises_no_doubt(pool):
+    drive = nominal_joint('emps').joint
+    t = np.arange(0.0, 12.0, 0.01)
+    command = 2.0 * np.sin(t) + 0.5 * np.sin(3.1 * t) + 0.2
+    load = replace(drive, effects=(ViscousFriction(coefficient=200.0),))
+    position = simulate(load, t, command, position=0.0).position
+    # Without the friction the mass is soon far away.
+    assert doubt_of(Recording('drive', t, t, command, position), pool, drive) is None
