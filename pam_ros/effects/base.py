@@ -298,6 +298,11 @@ class Effect(ABC):
         return any(place in ON_PRESSURE for place in cls.equations.places)
 
     @classmethod
+    def is_of_path(cls) -> bool:
+        """Return whether it acts in the pressure path alone."""
+        return all(place in ON_PRESSURE for place in cls.equations.places)
+
+    @classmethod
     def acts_on_joint(cls) -> bool:
         """Return whether it acts on the joint, and not in a muscle or its pressure path."""
         return any(place in ON_JOINT for place in cls.equations.places)

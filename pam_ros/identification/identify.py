@@ -139,7 +139,7 @@ def identify(
         sentence=sentence(conclusion, outcome.lacking, decision.explaining),
         next_experiment=following.text,
         next_command=following.command,
-        warnings=(*outcome.clocks, *_warnings(outcome.given, conclusion, ends.augmented)),
+        warnings=(*outcome.clocks, *_warnings(outcome, conclusion, ends.augmented)),
     )
 
 
@@ -177,9 +177,10 @@ def _parts(recordings: Sequence[Recording], shares: tuple[float, float]) -> list
     return parts
 
 
-def _warnings(given: Given, conclusion: Conclusion, augmented: Solution) -> tuple[str, ...]:
+def _warnings(outcome: Outcome, conclusion: Conclusion, augmented: Solution) -> tuple[str, ...]:
     """Return the warnings about all recordings and about the result."""
-    recordings = (*given.recordings, *given.test)
+    recordings = (*outcome.given.recordings, *outcome.given.test)
+    is_used = outcome.path is not None or outcome.note
     final = conclusion.stages[2].parameters
     return (
         *(text for recording in recordings for text in recording.warnings),
@@ -187,7 +188,8 @@ def _warnings(given: Given, conclusion: Conclusion, augmented: Solution) -> tupl
         *undetermined_after(augmented),
         *of_absolute_pressures(final, driving(recordings[0])[0].quantity, conclusion.quantity),
         *of_command_times(conclusion),
-        *of_unused(recordings),
+        *((outcome.note,) if outcome.note else ()),
+        *of_unused(recordings, ('force',) if is_used else ('pressure', 'force')),
         *of_constants(augmented, conclusion),
         *of_problem('' if conclusion.doubt else conclusion.stages[2].problem),
     )
@@ -266,7 +268,7 @@ def _conclusion(
         unit=first.unit,
         noise=noise,
         stages=three,
-        effects=_findings(search, three[2]) if is_found else (),
+        effects=_findings(outcome, three[2]) if is_found else (),
         candidates=candidates(search),
         structure=_structure(ends, search, noise.sigma),
         segments=tuple(replace(part.segment, fit=part.known) for part in ends.parts),
@@ -276,6 +278,7 @@ def _conclusion(
         since=_since(decision, search, ends),
         uncertain={name: str(given) for name, given in search.setting.uncertain.items()},
         doubt=outcome.doubt.reason if outcome.doubt else '',
+        uses_pressures=outcome.path is not None,
     )
 
 
@@ -320,15 +323,17 @@ def _structure(ends: FinalFits, search: Search, floor: float) -> Structure:
     return structure_of(s.t, s.target - run, inputs, floor)
 
 
-def _findings(search: Search, last: Stage) -> tuple[Finding, ...]:
-    places = search.setting.places
-    return tuple(
-        Finding(
-            name,
-            at_place(last.parameters, places[name]),
-            alternatives(search, name),
-            reason_for(search, name),
-            is_instead_of_constants(search, name),
-        )
-        for name in search.best.effects
-    )
+def _findings(outcome: Outcome, last: Stage) -> tuple[Finding, ...]:
+    """Return what is known of each effect; of those that only pressures show, from these."""
+    search = outcome.search
+    found = []
+    for name in search.best.effects:
+        parameters = at_place(last.parameters, search.setting.places[name])
+        if outcome.path is not None and name in search.kept:
+            others, reason = alternatives(outcome.path, name), reason_for(outcome.path, name)
+            found.append(Finding(name, parameters, others, f'in the measured pressures {reason}'))
+            continue
+        others, reason = alternatives(search, name), reason_for(search, name)
+        instead = is_instead_of_constants(search, name)
+        found.append(Finding(name, parameters, others, reason, instead))
+    return tuple(found)

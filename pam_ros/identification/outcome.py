@@ -9,7 +9,9 @@ does not have.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from pam_ros.identification.by_signal import find_by_signal
 from pam_ros.identification.clock_offset import on_one_clock, tests_on_one_clock
+from pam_ros.identification.data.by_signal import have_pressures
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.different_loads import different_loads
@@ -28,6 +30,8 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
 
+SettingOf = Callable[[Joint, Sequence[Recording]], Setting]
+
 
 @dataclass(frozen=True, eq=False)
 class Given:
@@ -44,7 +48,9 @@ class Outcome:
 
     ``given`` are the recordings with inputs and outputs on one clock, and ``clocks`` has a
     sentence on each correction. ``lacking`` is the reason why the data cannot support a verdict,
-    '' if they can; ``doubt`` is this reason if it is about what was stated, else None.
+    '' if they can; ``doubt`` is this reason if it is about what was stated, else None. ``path`` is
+    the search in measured pressures, None without one, and ``note`` a sentence on why they are not
+    used, '' if they are.
     """
 
     search: Search
@@ -53,6 +59,8 @@ class Outcome:
     lacking: str = ''
     doubt: Doubt | None = None
     clocks: tuple[str, ...] = ()
+    path: Search | None = None
+    note: str = ''
 
     @property
     def remedy(self) -> NextExperiment | None:
@@ -68,7 +76,7 @@ class Outcome:
 def search_recordings(
     setting: Setting,
     given: Given,
-    setting_of: Callable[[Joint, Sequence[Recording]], Setting],
+    setting_of: SettingOf,
     muscles: Mapping[str, Muscle],
     notify: Progress,
 ) -> Outcome:
@@ -88,9 +96,9 @@ def search_recordings(
     def again(recordings: Sequence[Recording]) -> Outcome:
         corrected = replace(given, recordings=tuple(recordings))
         own = setting_of(setting.joint, recordings)
-        return _searched(own, corrected, lambda share, text: notify(0.85, text))
+        return _searched(own, corrected, setting_of, lambda share, text: notify(0.85, text))
 
-    first = _searched(setting, given, notify)
+    first = _searched(setting, given, setting_of, notify)
     # Before the clocks, since another load can seem to be another clock, and takes longer.
     doubt = different_loads(first.search, given.recordings)
     if doubt:
@@ -101,8 +109,11 @@ def search_recordings(
     return replace(outcome, given=given, clocks=(*sentences, *others))
 
 
-def _searched(setting: Setting, given: Given, notify: Progress) -> Outcome:
+def _searched(setting: Setting, given: Given, setting_of: SettingOf, notify: Progress) -> Outcome:
     since = estimate_onset(setting)
+    if since is None and have_pressures(given.recordings):
+        found = find_by_signal(setting, given.recordings, setting_of, notify)
+        return Outcome(found.search, None, given, path=found.path, note=found.note)
     return Outcome(_search(setting, since, given, notify), since, given)
 
 

@@ -136,6 +136,8 @@ class Conclusion:
     or from which the best model fails; None if this is the case from the start. ``uncertain`` are
     the given standard deviations of nominal values, by parameter. ``doubt`` is the reason why the
     recordings contradict what was stated about them, such as a unit, '' if they do not.
+    ``uses_pressures`` is whether measured pressures of a load that moves have shown effects of the
+    pressure path.
     """
 
     verdict: Verdict
@@ -153,6 +155,7 @@ class Conclusion:
     since: Estimate | None
     uncertain: Mapping[str, str]
     doubt: str
+    uses_pressures: bool
 
     @property
     def regressors(self) -> str:

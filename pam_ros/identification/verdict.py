@@ -161,11 +161,14 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
     )
 
 
-def of_unused(recordings: Sequence[Recording]) -> list[str]:
-    """Return the warning on measured signals that have no influence on the result."""
+def of_unused(recordings: Sequence[Recording], names: Sequence[str]) -> list[str]:
+    """Return the warning on measured signals that have no influence on the result.
+
+    *names* are the signals that may have none: ``pressure`` and ``force``.
+    """
     unused = [
         name
-        for name in ('pressure', 'force')
+        for name in names
         for one in recordings
         if one.kind == 'free' and one.command is not None and getattr(one, name) is not None
     ]

@@ -10,12 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from pam_ros.identification.data.noise import noise_of
 from pam_ros.identification.fit.places import effect_of, muscle_of
 from pam_ros.identification.identification import Identification
 from pam_ros.identification.result import Candidate, Estimate, Finding
 from pam_ros.recording.recording import OUTPUTS, Recording
 from pam_ros.report.provenance import Provenance
-from pam_ros.report.runs import STAGES, Run, sizes
+from pam_ros.report.runs import STAGES, Run, pressure_runs_of, sizes
 
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
@@ -33,6 +34,7 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
         'effects': [_effect(finding) for finding in result.effects],
         'since': None if result.since is None else asdict(result.since),
         'error': _error(result, runs),
+        'pressures': _pressures(pressure_runs_of(result)),
         'structure': {
             'ceiling': result.structure.ceiling,
             'whiteness_p': result.structure.whiteness,
@@ -102,6 +104,21 @@ def _error(result: Identification, runs: list[Run]) -> Table:
             'details': {'fit': asdict(fit), 'held_out': asdict(held)},
         }
     return table
+
+
+def _pressures(runs: list[Run]) -> list[Table]:
+    """Return a row for each run of a measured pressure: its noise, and the error of each model."""
+    return [
+        {
+            'run': run.name,
+            'noise_floor': noise_of([(run.t, run.target)]).sigma,
+            **{
+                name: float(np.sqrt(np.mean(run.residual(k) ** 2)))
+                for k, name in enumerate(STAGES)
+            },
+        }
+        for run in runs
+    ]
 
 
 def _candidate(candidate: Candidate) -> Table:

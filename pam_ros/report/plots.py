@@ -9,12 +9,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pam_ros.identification.data.noise import noise_of
 from pam_ros.identification.identification import Identification
-from pam_ros.identification.wording import Scale, scale_for
+from pam_ros.identification.wording import Scale, listed, scale_for
 from pam_ros.report import residual_plots, style, time_plots
 from pam_ros.report.diagnostics import Size
 from pam_ros.report.numbers import Table
-from pam_ros.report.runs import STAGES, Run, drive_of
+from pam_ros.report.runs import STAGES, Run, drive_of, pressure_runs_of
 from pam_ros.report.time_plots import Curve
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Joint
@@ -40,7 +41,7 @@ def pictures(
     with style.styled():
         return {
             'errors': _errors(result, content, curves, scale),
-            'time': _over_time(result, runs, curves, scale),
+            'time': [*_over_time(result, runs, curves, scale), *_pressures(result, curves)],
             'correlation': _correlation(result, runs, _last_two(curves), scale),
             'against': _against(result, runs, _last_two(curves), scale),
         }
@@ -110,6 +111,27 @@ def _over_time(
                 [close], curves, scale, quantity, noise, width
             ),
         ),
+    ]
+
+
+def _pressures(result: Identification, curves: list[Curve]) -> list[Picture]:
+    """Return the plot of the measured pressures of a load that moves, none without them."""
+    runs = pressure_runs_of(result)
+    if not runs:
+        return []
+    noise = noise_of([(run.t, run.target) for run in runs]).sigma
+    ends = [curves[0], *curves[1:][-1:]]  # re-tuned constants have no influence, either
+    names = listed([run.name for run in runs])
+    return [
+        _wide(
+            'pressures',
+            'Pressures in the chambers',
+            f'From the commands, of {names}. Only effects of the pressure path have an influence '
+            'on them. Band: ± two standard deviations of the noise.',
+            lambda width: time_plots.measured_and_simulated(
+                time_plots.whole(runs), ends, Scale(1e-3, 'kPa'), 'pressure', noise, width
+            ),
+        )
     ]
 
 

@@ -7,16 +7,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.identification.data.by_signal import of_chambers
 from pam_ros.identification.data.segment import (
     CommandedSegment,
     HeldSegment,
     PressureSegment,
     Segment,
+    segments_of,
 )
 from pam_ros.identification.identification import Identification
 from pam_ros.report.diagnostics import Size, size_of
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Joint
+from pam_ros.rig.run import simulate_pressure
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -67,6 +70,31 @@ def runs_of(result: Identification) -> list[Run]:
     for k, segment in enumerate(result.test):
         a, b, c = (_cut(stage.tested[k]) for stage in result.stages)
         found.append(_run(segment, (a, b, c), np.ones_like(segment.fit), True, joint))
+    return found
+
+
+def pressure_runs_of(result: Identification) -> list[Run]:
+    """Return the runs of the measured pressures of a load that moves, if the result uses them.
+
+    They are those of each muscle of the fitted recordings, simulated from the commands. Effects
+    behind the chambers have no influence on them.
+    """
+    if not result.uses_pressures:
+        return []
+    found = []
+    joints = [stage.model for stage in result.stages]
+    for recording in result.recordings:
+        for segment in segments_of([of_chambers(recording)]):
+            assert isinstance(segment, PressureSegment)
+            given = segment.t, segment.drive, segment.drive_t
+            a, b, c = (
+                _cut(simulate_pressure(joint, *given).reshape(segment.t.size, -1))[
+                    :, segment.muscle
+                ]
+                for joint in joints
+            )
+            held = np.zeros_like(segment.fit)
+            found.append(_run(segment, (a, b, c), held, False, joints[0]))
     return found
 
 

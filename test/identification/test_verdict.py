@@ -277,6 +277,7 @@ def test_signals_that_are_not_used_are_named():
     free = Recording('free', t, t, 1e5 * t, t, pressure=1e5 * t, force=t)
     held = Recording('held', t, position=t, pressure=1e5 * t, force=t, kind='held')
     driven = Recording('driven', t, position=t, pressure=1e5 * t)
-    assert of_unused([held, driven]) == []
-    (warning,) = of_unused([held, free])
+    names = ('pressure', 'force')
+    assert of_unused([held, driven], names) == []
+    (warning,) = of_unused([held, free], names)
     assert warning.startswith('the measured pressure and the measured force of a load that moves')

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings of the truth plant as the package reads them, and what their user believes."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from pam_ros.muscle.muscle import Muscle
@@ -46,6 +48,12 @@ def of_pressures(*effects, name='truth.csv', **settings):
     return Recording(
         name, t, t, true.pressure_command_pa, pressure=true.pressure_pa, kind='pressure'
     )
+
+
+def with_pressures(*effects, name='truth.csv', **settings):
+    """Return the recording of a free load with its commands and pressures; see ``free``."""
+    true = record(effects, **{'rate': 100.0, 'duration': 30.0, **settings})
+    return replace(recording_of(true, name), pressure=true.pressure_pa)
 
 
 def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6, before=()):

@@ -163,6 +163,7 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
         since=None,
         uncertain={'mass': '2%'},
         doubt='',
+        uses_pressures=False,
         sentence='The configured model lacks something.' if findings else 'Nothing is missing.',
         next_experiment='slow triangles with minor loops: the force reverses within micrometres',
         next_command="pam_excite --ros-args -p segments:='[slow_triangle, fast_triangle]'",

@@ -44,12 +44,17 @@ Progress = Callable[[float, str], None]  # share of the work that is done, and t
 
 @dataclass(eq=False)
 class Search:
-    """A search: the re-tuned model, the best one, and every model that it evaluated."""
+    """A search: the re-tuned model, the best one, and every model that it evaluated.
+
+    ``kept`` are the effects that another signal shows: they are in the best model also if this
+    search does not need them.
+    """
 
     setting: Setting
     retuned: Model
     best: Model
     evaluated: list[Model] = field(default_factory=list)
+    kept: tuple[str, ...] = ()
 
     def evaluate(self, models: Iterable[Model]) -> list[Model]:
         """Add fitted *models* to those that were evaluated, and return them."""
@@ -76,15 +81,41 @@ def without_effects(setting: Setting, progress: Progress = lambda share, text: N
 
 def find_effects(setting: Setting, progress: Progress = lambda share, text: None) -> Search:
     """Find the effects that the nominal model lacks; *progress* is called at each step."""
-    found, budget = without_effects(setting, progress), setting.budget
+    return confirmed(improved(without_effects(setting, progress), progress), progress)
+
+
+def find_effects_from(search: Search, model: Model, progress: Progress) -> Search:
+    """Find the effects that the nominal model lacks, from a *model* with some of them on.
+
+    *search* has only re-tuned the nominal model. Effects that *model* does not need are removed,
+    except those that are kept.
+    """
+    search.evaluate([model])
+    less = _without_needless_effects(model, search)
+    is_better = is_no_worse if search.kept else is_accepted
+    if is_better(less, search.retuned, search.setting):
+        search.best = free_parameters(less, search)
+    else:
+        search.kept = ()
+    return confirmed(improved(search, progress), progress)
+
+
+def improved(found: Search, progress: Progress) -> Search:
+    """Return the search after moves from its best model, until none is accepted."""
+    setting, budget = found.setting, found.setting.budget
     for n in range(budget.rounds):
         progress(0.05 + 0.75 * n / budget.rounds, f'trying effects, round {n + 1}')
-        if len(found.best.effects) == budget.effects or is_complete(found.best, setting):
+        if len(found.best.effects) >= budget.effects or is_complete(found.best, setting):
             break
         better = _add_effect(found) or exchange_effect(found)
         if better is None:
             break
         found.best = better
+    return found
+
+
+def confirmed(found: Search, progress: Progress) -> Search:
+    """Return the search with its best model confirmed, see :func:`confirm`."""
     progress(0.8, 'confirming the effects with finer steps')
     found.best = confirm(found)
     return found
@@ -129,6 +160,8 @@ def exchange_effect(search: Search) -> Model | None:
     setting, best = search.setting, search.best
     tried: list[Model] = []
     for name in best.effects:
+        if name in search.kept:
+            continue
         named = setting.related(name, setting.places[name].effect.rivals)
         rivals = [one for one in named if one in absent_effects(best, setting)]
         if not rivals:
@@ -296,10 +329,10 @@ def _without_needless_effects(model: Model, search: Search) -> Model:
     improvement must not count for the effect.
     """
     setting = search.setting
-    while model.effects:
-        search.evaluate(remove_effect(model, name, setting) for name in model.effects)
+    while names := [name for name in model.effects if name not in search.kept]:
+        search.evaluate(remove_effect(model, name, setting) for name in names)
         step = model.solution.problem.step
-        less = [search.best_evaluated({*model.effects} - {name}, step) for name in model.effects]
+        less = [search.best_evaluated({*model.effects} - {name}, step) for name in names]
         with_errors([model, *less], setting)
         able = [
             m

@@ -131,6 +131,8 @@ class Setting:
     muscles: tuple[str, ...] = ()  # names of the muscles of a joint that has several
     uncertain: Spreads = field(default_factory=dict)  # standard deviations of nominal values
     onset: float | None = None  # s, near which effects begin; None: at the start
+    # Whether the input are the pressures in the chambers, for which the commands are known, too.
+    is_behind_chambers: bool = False
 
     @cached_property
     def noise(self) -> float:
@@ -289,12 +291,15 @@ class Setting:
     def places(self) -> dict[str, Place]:
         """Every place at which an effect of the library can act, by its name.
 
-        If only pressures were recorded, these are the effects in the pressure path.
+        If only pressures were recorded, these are the effects in the pressure path; behind the
+        chambers, those that also act elsewhere.
         """
         every = places_of(self.joint, self.muscles)
-        if not self.is_of_pressures:
-            return every
-        return {name: one for name, one in every.items() if one.effect.acts_on_pressure()}
+        if self.is_of_pressures:
+            return {name: one for name, one in every.items() if one.effect.acts_on_pressure()}
+        if self.is_behind_chambers:
+            return {name: one for name, one in every.items() if not one.effect.is_of_path()}
+        return every
 
     def related(self, name: str, effects: Iterable[str]) -> list[str]:
         """Return the places of *effects* that belong to the place called *name*.

@@ -1,0 +1,159 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The search in recordings with commands, measured pressures and positions.
+
+The measured pressures divide the problem. What is between the commands and the chambers is found
+from the pressures, what is behind them from the motion under the measured pressures: each is
+smaller, and an error of the one does not hide an effect of the other. Then all that was found is
+fitted together to the motion under the commands alone, which is what is reported.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pam_ros.identification.data.by_signal import behind_chambers, of_chambers
+from pam_ros.identification.data.segment import PressureSegment
+from pam_ros.identification.fit.extend import bounded, with_effect
+from pam_ros.identification.fit.places import effect_of
+from pam_ros.identification.fit.solve import converge, initial_solution
+from pam_ros.identification.fit.unknowns import OfEffect
+from pam_ros.identification.search.readings import likely_mistake
+from pam_ros.identification.search.search import (
+    Progress,
+    Search,
+    find_effects,
+    find_effects_from,
+    improved,
+    without_effects,
+)
+from pam_ros.identification.search.setting import Model, Setting, rms
+from pam_ros.identification.search.starts import without_idle
+from pam_ros.identification.verdict import WEATHER
+from pam_ros.recording.quantities import ATMOSPHERE
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.joint import Joint
+
+# Shares of the progress at which the searches begin.
+MOTION, TOGETHER = 0.3, 0.6
+# Effects that an error of the pressure sensor imitates, its offset or the age of its samples: the
+# motion must show them as well.
+OF_SENSOR = ('pressure_offset', 'dead_time')
+# Error of the best model in standard deviations of a pressure, above which it is another signal.
+STRANGE = 1.0 / 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class BySignal:
+    """The search for all effects, and the one in the pressures, None if they are not used.
+
+    ``note`` is a sentence that says why they are not used, '' if they are.
+    """
+
+    search: Search
+    path: Search | None = None
+    note: str = ''
+
+
+def find_by_signal(
+    setting: Setting,
+    recordings: Sequence[Recording],
+    setting_of: Callable[[Joint, Sequence[Recording]], Setting],
+    progress: Progress,
+) -> BySignal:
+    """Find the effects in *recordings*, which have commands and measured pressures.
+
+    *setting* is their setting, and setting_of(joint, recordings) returns that of others.
+    """
+
+    def part(begin: float, end: float, what: str) -> Progress:
+        return lambda share, text: progress(begin + share * (end - begin), f'{what}: {text}')
+
+    of_path = setting_of(setting.joint, [of_chambers(one) for one in recordings])
+    doubt = likely_mistake(of_path, {})
+    path = None if doubt else _found(of_path, part(0.0, MOTION, 'pressures'))
+    reason = doubt.reason if doubt else ''
+    if path is None or (reason := contradiction(path)):
+        note = f'the measured pressures are not used: {reason}'
+        return BySignal(find_effects(setting, progress), None, note)
+    behind = [behind_chambers(one) for one in recordings]
+    of_motion = replace(setting_of(setting.joint, behind), is_behind_chambers=True)
+    motion = _found(of_motion, part(MOTION, TOGETHER, 'motion'))
+    together = part(TOGETHER, 1.0, 'both')
+    found = without_effects(setting, together)
+    found.kept = tuple(one for one in path.best.effects if effect_of(one) not in OF_SENSOR)
+    begin = joined(found, path.best, motion.best)
+    return BySignal(find_effects_from(found, begin, together), path)
+
+
+def _found(setting: Setting, progress: Progress) -> Search:
+    """Return the search of a part, whose effects the search of all confirms."""
+    return improved(without_effects(setting, progress), progress)
+
+
+def contradiction(path: Search) -> str:
+    """Return why measured pressures cannot be those in the chambers, '' if they can be.
+
+    *path* is the search in them.
+    """
+    known = path.best.nearest
+    for unknown, u in zip(known.problem.unknowns, known.u, strict=True):
+        value = unknown.value(u)
+        if unknown.name.endswith('pressure_offset.offset') and abs(value - ATMOSPHERE) < WEATHER:
+            return (
+                f'they are {1e-3 * value:.4g} kPa higher than what was commanded, which is the '
+                'pressure of the air: are they absolute? Gauge pressures are expected: --column '
+                "'NAME=pressure_Pa-101325'"
+            )
+    segments, errors = known.problem.segments, known.problem.by_run(known.r)
+    for name in dict.fromkeys(one.muscle for one in segments if isinstance(one, PressureSegment)):
+        own = [
+            (e, s.target[s.fit])
+            for s, e in zip(segments, errors, strict=True)
+            if isinstance(s, PressureSegment) and s.muscle == name
+        ]
+        error, target = (np.concatenate(each) for each in zip(*own, strict=True))
+        share = rms(error) / float(np.std(target))
+        if share > STRANGE:
+            which = f' in {path.setting.muscles[name]}' if path.setting.muscles else ''
+            return (
+                f'they differ{which} from what the commands give by {share:.2g} of their standard '
+                'deviations, with the best effects of the pressure path: are they those of '
+                'another sensor, or in another unit?'
+            )
+    return ''
+
+
+def joined(search: Search, path: Model, motion: Model) -> Model:
+    """Return the model with the effects of *path* and *motion*, fitted as *search* requires.
+
+    The fit begins with their effects, and with the constants of *motion*.
+    """
+    setting = search.setting
+    known = search.retuned.solution
+    problem, u = known.problem, known.u
+    values: dict[str, float] = {}
+    for model in (path, motion):
+        pairs = zip(model.nearest.problem.unknowns, model.nearest.u, strict=True)
+        own = [(one, value) for one, value in pairs if one.is_parameter]
+        values |= {one.name: one.value(value) for one, value in own}
+        for name in model.effects:
+            start = {
+                one.of.parameter: one.value(value)
+                for one, value in own
+                if isinstance(one.of, OfEffect) and one.of.place == name
+            }
+            problem, added = with_effect(problem, setting.joint, setting.places[name], start)
+            u = np.concatenate([u, added])
+            problem = bounded(problem, u, setting.joint, setting.places[name])
+    u = np.array(
+        [
+            one.coordinate(values[one.name]) if one.name in values else before
+            for one, before in zip(problem.unknowns, u, strict=True)
+        ]
+    )
+    begin = without_idle(initial_solution(problem, u, pool=setting.pool), setting.noise)
+    begin = replace(begin, discrepancy=begin.most_likely())
+    end = converge(begin, setting.budget.iterations, setting.pool)
+    return setting.model((*path.effects, *motion.effects), end)
