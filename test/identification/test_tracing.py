@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from benchmarks import tracing_late
+from benchmarks import tracing_late, tracing_pressures
 from benchmarks._intervals import SAME, intervals, mean_delay, truth_of
 from benchmarks.tracing import (
     TARGETS,
@@ -269,3 +269,16 @@ def test_until_the_moment_nothing_is_there(kind):
     assert moved[t < late.shows].max() <= 3.0 * trial.noise
     assert moved[t >= late.shows][0] > 3.0 * trial.noise
     assert late.onset <= late.shows <= t[-1]
+
+
+def test_shares_of_trials_with_measured_pressures():
+    three = 'pressure_lag+hysteresis+coulomb_friction'
+    rows = [
+        row('noise_only'),
+        row('creep', ['creep']),
+        row('creep', ['leak']),
+        row(three, three.split('+')),
+        row(three, ['pressure_lag', 'hysteresis', 'creep']),
+    ]
+    figures = dict(zip(tracing_pressures.TARGETS, (0.5, 5 / 6, 0.5, 0.5, 1.0), strict=True))
+    assert tracing_pressures.scores(rows) == pytest.approx(figures)
