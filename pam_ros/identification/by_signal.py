@@ -31,6 +31,7 @@ from pam_ros.identification.search.search import (
 from pam_ros.identification.search.setting import Model, Setting, rms
 from pam_ros.identification.search.starts import without_idle
 from pam_ros.identification.verdict import WEATHER
+from pam_ros.identification.wording import listed
 from pam_ros.recording.quantities import ATMOSPHERE
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
@@ -71,10 +72,13 @@ def find_by_signal(
         return lambda share, text: progress(begin + share * (end - begin), f'{what}: {text}')
 
     of_path = setting_of(setting.joint, [of_chambers(one) for one in recordings])
-    doubt = likely_mistake(of_path, {})
-    path = None if doubt else _found(of_path, part(0.0, MOTION, 'pressures'))
-    reason = doubt.reason if doubt else ''
-    if path is None or (reason := contradiction(path)):
+    path, reason = None, idle(recordings)
+    if not reason and (doubt := likely_mistake(of_path, {})):
+        reason = doubt.reason
+    if not reason:
+        path = _found(of_path, part(0.0, MOTION, 'pressures'))
+        reason = contradiction(path)
+    if path is None or reason:
         note = f'the measured pressures are not used: {reason}'
         return BySignal(find_effects(setting, progress), None, note)
     behind = [behind_chambers(one) for one in recordings]
@@ -90,6 +94,18 @@ def find_by_signal(
 def _found(setting: Setting, progress: Progress) -> Search:
     """Return the search of a part, whose effects the search of all confirms."""
     return improved(without_effects(setting, progress), progress)
+
+
+def idle(recordings: Sequence[Recording]) -> str:
+    """Return a clause that names the pressures which are the same in all samples, '' if none."""
+    given = [(one.pressure, one.t.size) for one in recordings if one.pressure is not None]
+    values = np.concatenate([pressure.reshape(count, -1) for pressure, count in given])
+    still = np.flatnonzero(np.ptp(values, axis=0) == 0.0)
+    if not still.size:
+        return ''
+    names = [recordings[0].muscles[k] for k in still] if recordings[0].muscles else []
+    which = f'those of {listed(names)}' if names else 'they'
+    return f'{which} are constant while the commands change: was the sensor read?'
 
 
 def contradiction(path: Search) -> str:

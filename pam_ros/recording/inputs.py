@@ -57,6 +57,12 @@ def driving(recording: Recording, p_max: float | Sequence[float] | None = None) 
     return [Input(*one) for one in zip(names, columns, highest, strict=True)]
 
 
+def input_of(output: str, inputs: Sequence[Input]) -> Input:
+    """Return that of *inputs* which drives an *output*: of its muscle, or the first one."""
+    muscle = output.rpartition('.')[0]
+    return next(one for one in inputs if one.name.rpartition('.')[0] == muscle or not muscle)
+
+
 def refuse_idle(recordings: Sequence[Recording]) -> None:
     """Raise RecordingError if a muscle has the same constant input in all *recordings*.
 

@@ -8,7 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.recording.bounds import Bounds
-from pam_ros.recording.inputs import Input, driving, is_constant, is_stretched, outputs
+from pam_ros.recording.inputs import (
+    Input,
+    driving,
+    input_of,
+    is_constant,
+    is_stretched,
+    outputs,
+)
 from pam_ros.recording.recording import Recording
 from pam_ros.recording.unusable import PERIODS, refuse_unusable
 
@@ -137,8 +144,7 @@ def _warn_extremes(recording: Recording, inputs: Sequence[Input]) -> list[str]:
     for name, value, si in outputs(recording):
         if np.ptp(value) == 0.0:
             continue
-        muscle, _, quantity = name.rpartition('.')
-        drive = next(one for one in inputs if one.name.rpartition('.')[0] == muscle or not muscle)
+        quantity, drive = name.rpartition('.')[2], input_of(name, inputs)
         for word, extreme in (('lowest', np.min(value)), ('highest', np.max(value))):
             at = value == extreme
             runs = np.count_nonzero(at[1:] & at[:-1])

@@ -8,7 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.inputs import Input, is_constant, is_stretched, outputs, quantity_of
+from pam_ros.recording.inputs import (
+    Input,
+    input_of,
+    is_constant,
+    is_stretched,
+    outputs,
+    quantity_of,
+)
 from pam_ros.recording.recording import OUTPUTS, PREDICTED, Recording
 
 Array = NDArray[np.float64]
@@ -152,8 +159,12 @@ def _refuse_constant(recording: Recording, inputs: Sequence[Input]) -> None:
             'be identified'
         )
     for name, values, _ in outputs(recording):
-        if name.rpartition('.')[2] == PREDICTED[recording.kind] and np.ptp(values) == 0.0:
-            raise RecordingError(
-                f'{recording.name}: {name} is constant while {inputs[0].name} changes: was the '
-                'sensor read?'
-            )
+        if name.rpartition('.')[2] != PREDICTED[recording.kind] or np.ptp(values) > 0.0:
+            continue
+        drive = input_of(name, inputs)
+        if recording.kind == 'pressure' and is_constant(drive.values):
+            continue  # the pressure of a muscle that is not moved
+        raise RecordingError(
+            f'{recording.name}: {name} is constant while {drive.name} changes: was the '
+            'sensor read?'
+        )

@@ -56,6 +56,10 @@ def of_another_sensor(recording):
     return replace(recording, pressure=other)
 
 
+def of_a_dead_sensor(recording):
+    return replace(recording, pressure=np.zeros_like(recording.pressure))
+
+
 def of_absolute_pressures(recording):
     return replace(recording, pressure=recording.pressure + 101325.0)
 
@@ -68,6 +72,7 @@ def in_kilopascal(recording):
     ('spoiled', 'words'),
     [
         (of_another_sensor, 'they differ from what the commands give by'),
+        (of_a_dead_sensor, 'they are constant while the commands change'),
         (of_absolute_pressures, 'are they absolute?'),
         (in_kilopascal, 'in another unit?'),
     ],

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
+from pam_ros.identification.data.checked import checked
 from pam_ros.identification.identify import identify
 from pam_ros.recording.read import read_recording
 from pam_ros.recording.recording import Recording
@@ -79,6 +80,20 @@ def test_the_muscle_whose_valve_is_slow_is_named():
     assert [one.name for one in found.effects] == ['antagonist.pressure_lag']
     assert [one.name for one in found.segments] == ['pair.csv (agonist)', 'pair.csv (antagonist)']
     assert found.effects[0].parameters['fill'].value == pytest.approx(0.05, rel=0.03)
+
+
+def test_a_muscle_that_is_not_moved_may_have_a_constant_pressure():
+    one = bench_truth.of_pressures(LAG, seed=4)
+    still = np.full_like(one.command, 2e5)
+    both = replace(
+        one,
+        command=np.stack([one.command, still], axis=1),
+        pressure=np.stack([one.pressure, still], axis=1),
+        muscles=('agonist', 'antagonist'),
+    )
+    assert not any('was the sensor read' in warning for warning in checked(both, pair()).warnings)
+    with pytest.raises(RecordingError, match=r'agonist\.pressure is constant while agonist'):
+        checked(replace(both, pressure=both.pressure[:1] + 0.0 * both.pressure), pair())
 
 
 def test_commands_in_another_unit_are_noticed():
