@@ -32,7 +32,16 @@ from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
-from truth import KINDS, NOISE_ONLY, OUT_OF_LIBRARY, PAIRS, Trial, blind_trial, wide_trial
+from truth import (
+    KINDS,
+    NOISE_ONLY,
+    OUT_OF_LIBRARY,
+    PAIRS,
+    Trial,
+    blind_trial,
+    slow_trial,
+    wide_trial,
+)
 
 TARGETS = {
     'single: right effect first, or in a set of two': (0.95, 'min'),
@@ -75,7 +84,7 @@ class Job:
     draws: str
 
 
-DRAWS = {'blind': blind_trial, 'wide': wide_trial}
+DRAWS = {'blind': blind_trial, 'wide': wide_trial, 'slow': slow_trial}
 
 
 def run_trial(job: Job) -> dict[str, Any]:

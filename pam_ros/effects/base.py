@@ -317,13 +317,14 @@ class Effect(ABC):
 
     @classmethod
     def fit_bounds(
-        cls, near: Mapping[str, float], fitted: Collection[str], mass: float
+        cls, near: Mapping[str, float], fitted: Collection[str], mass: float, duration: float
     ) -> dict[str, Interval]:
         """Return those bounds of its parameters in a fit that are narrower than their ranges.
 
         *near* are the values of all its parameters from which the fit begins, *fitted* the names
-        of those that it changes, and *mass* in kg is what the joint moves without effects. A fit
-        within these bounds ends with a valid joint.
+        of those that it changes, *mass* in kg is what the joint moves without effects, and
+        *duration* in s that of the longest recording. A fit within these bounds ends with a valid
+        joint.
         """
         return {}
 

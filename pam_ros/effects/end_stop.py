@@ -134,7 +134,7 @@ class EndStop(Effect):
 
     @classmethod
     def fit_bounds(
-        cls, near: Mapping[str, float], fitted: Collection[str], mass: float
+        cls, near: Mapping[str, float], fitted: Collection[str], mass: float, duration: float
     ) -> dict[str, Interval]:
         """Return bounds that keep the two pads on their sides of the middle between them."""
         if not all(near[pad] > 0.0 or pad in fitted for pad in ('stiffness', 'lower_stiffness')):

@@ -64,7 +64,7 @@ class Payload(Effect):
 
     @classmethod
     def fit_bounds(
-        cls, near: Mapping[str, float], fitted: Collection[str], mass: float
+        cls, near: Mapping[str, float], fitted: Collection[str], mass: float, duration: float
     ) -> dict[str, Interval]:
         """Return the bounds of its mass that leave the joint a fifth of the nominal one."""
         return {'mass': ((LEAST_SHARE - 1.0) * mass, np.inf)}

@@ -2,16 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """Periodic disturbance: a sinusoid in the force on the load, or in the supply pressure."""
 
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from math import cos, pi, sin
 from typing import ClassVar
 
 import numpy as np
 
-from pam_ros.effects.base import Array, Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.base import (
+    Array,
+    Compensation,
+    Effect,
+    EffectEquations,
+    Interval,
+    Row,
+    Starts,
+)
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
 FORCE_SIN, FORCE_COS, PRESSURE_SIN, PRESSURE_COS, FREQUENCY = range(5)
+PERIODS = 3  # fewest in a recording; a slow error with fewer of them may be a drift
 
 
 def force(
@@ -55,7 +65,7 @@ def tallest_lines(t: Array, residual: Array) -> list[float]:
     size = 8 * n
     power = np.abs(np.fft.rfft((values - trend(even)) * np.hanning(n), size)) ** 2
     step = (n - 1) / (size * (t[-1] - t[0]))
-    least = 8 * 3  # fewer than three periods in the record are a drift
+    least = 8 * PERIODS
     power[:least] = 0.0
     found = []
     for _ in range(2):
@@ -116,6 +126,13 @@ class PeriodicDisturbance(Effect):
     compensation: ClassVar = Compensation.FEEDBACK
     moves_by_itself: ClassVar = True
     equations: ClassVar = EffectEquations(pressure=pressure, force=force, guess=guess)
+
+    @classmethod
+    def fit_bounds(
+        cls, near: Mapping[str, float], fitted: Collection[str], mass: float, duration: float
+    ) -> dict[str, Interval]:
+        """Return the bounds with which it is periodic in a recording of *duration* s."""
+        return {'frequency': (PERIODS / duration, np.inf)}
 
     @classmethod
     def fit_starts(cls) -> Starts:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pam_ros.identification.data.by_signal import behind_chambers, of_chambers
+from pam_ros.identification.data.parts import like
 from pam_ros.identification.data.segment import PressureSegment
 from pam_ros.identification.fit.extend import bounded, with_effect
 from pam_ros.identification.fit.places import effect_of
@@ -71,7 +72,8 @@ def find_by_signal(
     def part(begin: float, end: float, what: str) -> Progress:
         return lambda share, text: progress(begin + share * (end - begin), f'{what}: {text}')
 
-    of_path = setting_of(setting.joint, [of_chambers(one) for one in recordings])
+    chambers = [of_chambers(one) for one in recordings]
+    of_path = replace(setting_of(setting.joint, chambers), parts=like(setting.parts, chambers))
     path, reason = None, idle(recordings)
     if not reason and (doubt := likely_mistake(of_path, {})):
         reason = doubt.reason
@@ -82,7 +84,11 @@ def find_by_signal(
         note = f'the measured pressures are not used: {reason}'
         return BySignal(find_effects(setting, progress), None, note)
     behind = [behind_chambers(one) for one in recordings]
-    of_motion = replace(setting_of(setting.joint, behind), is_behind_chambers=True)
+    of_motion = replace(
+        setting_of(setting.joint, behind),
+        parts=like(setting.parts, behind),
+        is_behind_chambers=True,
+    )
     motion = _found(of_motion, part(MOTION, TOGETHER, 'motion'))
     together = part(TOGETHER, 1.0, 'both')
     found = without_effects(setting, together)

@@ -14,7 +14,7 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.data.parts import like, parts_of
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.data.thinning import thinned
 from pam_ros.identification.fit.problem import Problem
@@ -126,7 +126,7 @@ class _Clocks:
     def __init__(
         self, search: Search, recordings: Sequence[Recording], shares: tuple[float, float]
     ) -> None:
-        self._shares, self._recordings = shares, recordings
+        self._recordings = recordings
         self._setting = replace(search.setting, parts=parts_of(recordings, *shares), onset=None)
         self._least = np.array([_least_offset(one, search.setting) for one in recordings])
 
@@ -177,7 +177,7 @@ class _Clocks:
         """Return *problem* with inputs earlier by *offsets*, and the recording of each run."""
         pairs = zip(self._recordings, offsets.tolist(), strict=True)
         shifted = [with_earlier_input(one, offset) for one, offset in pairs]
-        parts = parts_of(shifted, *self._shares)
+        parts = like(self._setting.parts, shifted)
         segments = replace(self._setting, parts=parts).problem.segments
         return replace(problem, segments=segments), [s.recording for s in segments]
 

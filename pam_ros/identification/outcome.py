@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from pam_ros.identification.by_signal import find_by_signal
 from pam_ros.identification.clock_offset import on_one_clock, tests_on_one_clock
 from pam_ros.identification.data.by_signal import have_pressures
-from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.data.parts import parts_in_time
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.different_loads import different_loads
 from pam_ros.identification.search.doubt import Doubt
@@ -124,5 +124,6 @@ def _search(
     later = since and shares_after(since, setting.parts, given.shares, CRITERIA.duration)
     if not (since and later):
         return find_effects(setting, notify)
-    late = replace(setting, parts=parts_of(given.recordings, *later), onset=since.time)
+    (recording,) = given.recordings
+    late = replace(setting, parts=parts_in_time(recording, *later), onset=since.time)
     return find_late_effects(setting, late, notify)

@@ -21,6 +21,7 @@ from pam_ros.rig.arrangements import LOAD, arrangement_of
 from pam_ros.rig.joint import Joint
 
 FILE = 'FILE'  # in a command: the parameter file of the joint, without which it is one muscle
+REMAINDER = 3.0  # noise floors; a larger error is more than the inexact form of the right effects
 WEATHER = 6e3  # Pa; change of the air pressure by weather and up to 500 m of altitude
 
 
@@ -79,10 +80,12 @@ def is_refuted(search: Search, retuned: float, augmented: float) -> bool:
     """Return whether the judging data contradict the effects of a search: they explain too little.
 
     *retuned* and *augmented* are the errors over these data, in m, rad or N, without and with the
-    effects. False if there are no such data.
+    effects. False if there are no such data. Where *choose* does not show how a free run
+    continues, the judging data must show it, with the limit that *choose* has elsewhere.
     """
-    explained = 1.0 - _left(search.setting, retuned, augmented)
-    return bool(search.best.effects) and explained < search.setting.criteria.left
+    setting = search.setting
+    most = setting.criteria.left if setting.choices_interpolate else 1.0 - setting.criteria.left
+    return bool(search.best.effects) and _left(setting, retuned, augmented) > most
 
 
 def verdict(search: Search, nominal: float, retuned: float, augmented: float) -> Verdict:
@@ -113,18 +116,19 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
     nominal, retuned, augmented = (_size(s.held_error, answer.unit) for s in answer.stages)
     floor = f'The noise floor is {_size(answer.noise.sigma, answer.unit)}.'
     if answer.verdict == Verdict.EFFECT_FOUND:
-        names = ', '.join(
+        named = ', '.join(
             spelled(e.name)
             + (f' (or {" or ".join(map(spelled, e.alternatives))})' if e.alternatives else '')
             for e in answer.effects
         )
-        it = 'it' if len(answer.effects) == 1 else 'them'
+        these = 'this effect' if len(answer.effects) == 1 else 'these effects'
         since = '' if answer.since is None else f' from {onset_text(answer)} on'
+        lacks = f'The model lacks {named}{since}{_remainder(answer)}'
         doubtful = [spelled(e.name) for e in answer.effects if e.or_constants]
         if doubtful:
             return (
-                f'The model lacks {names}{since}: the error on held-out data is {augmented} with '
-                f'{it}, {retuned} re-tuned and {nominal} nominal. Instead of '
+                f'{lacks}: the error on held-out data is {augmented} with {these}, '
+                f'{retuned} re-tuned and {nominal} nominal. Instead of '
                 f'{" and ".join(doubtful)}, constants far from the nominal ones explain the data '
                 f'as well. {floor}'
             )
@@ -133,8 +137,8 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
             nominal if answer.quantity == 'pressure' else f'{retuned} re-tuned ({nominal} nominal)'
         )
         return (
-            f'The model lacks {names}{since}: with {it} the error on held-out data falls from '
-            f'{before} to {augmented}. {floor}'
+            f'{lacks}: with {these} the error on held-out data falls from {before} to '
+            f'{augmented}. {floor}'
         )
     if answer.verdict == Verdict.NO_MISSING_EFFECT:
         return f'Nothing is missing: the error on held-out data is {nominal}. {floor}'
@@ -159,6 +163,14 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
         f'variance of the residual can be predicted from {answer.regressors}.'
         f'{since} {floor}'
     )
+
+
+def _remainder(answer: Conclusion) -> str:
+    """Return a clause on the error that the effects of *answer* leave, '' if it is small."""
+    left, noise = answer.stages[2].held_error, answer.noise.sigma
+    if not 0.0 < REMAINDER * noise < left:
+        return ''
+    return f', and something remains that no effect explains ({left / noise:.2g} noise floors)'
 
 
 def of_unused(recordings: Sequence[Recording], names: Sequence[str]) -> list[str]:

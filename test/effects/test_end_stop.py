@@ -106,11 +106,11 @@ def test_two_pads_leave_a_travel(lower, upper):
 def test_a_fit_of_two_pads_cannot_cross_them(lower, upper, a, b):
     """Wherever it begins, and wherever within its bounds it ends."""
     near = {'lower': lower, 'upper': upper, 'stiffness': 0.0, 'lower_stiffness': 3e4}
-    bounds = EndStop.fit_bounds(near, {'upper', 'stiffness'}, 20.0)
+    bounds = EndStop.fit_bounds(near, {'upper', 'stiffness'}, 20.0, 60.0)
     low, high = bounds['lower'], bounds['upper']
     least, most = max(-0.5, high[0]), min(1.0, low[1])
     EndStop(lower=-0.5 + a * (most + 0.5), upper=least + b * (1.0 - least), **PADS)
     if lower < upper - 1e-5:
         assert low[0] <= lower <= low[1]
         assert high[0] <= upper <= high[1]
-    assert EndStop.fit_bounds(near, {'upper', 'damping'}, 20.0) == {}
+    assert EndStop.fit_bounds(near, {'upper', 'damping'}, 20.0, 60.0) == {}

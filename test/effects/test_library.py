@@ -219,7 +219,9 @@ def subsets(draw):
             continue
         values = {}
         usual = {p.name: p.default for p in effect.parameters()}
-        bounds = effect.fit_bounds(usual, usual, bench.MASS)  # what a joint may have together
+        bounds = effect.fit_bounds(
+            usual, usual, bench.MASS, 60.0
+        )  # what a joint may have together
         for p in effect.parameters():
             least, most = bounds.get(p.name, (p.low, p.high))
             low, high = (

@@ -52,4 +52,4 @@ def test_no_joint_has_less_than_a_fifth(make):
     for effect in (Payload(mass=-25.0), Payload(mass=-25.0, onset=2.0)):
         with pytest.raises(ParameterError, match=words):
             make(effect)
-    assert Payload.fit_bounds({'mass': -1.0}, {'mass'}, 20.0)['mass'][0] == -16.0
+    assert Payload.fit_bounds({'mass': -1.0}, {'mass'}, 20.0, 60.0)['mass'][0] == -16.0

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pam_ros.identification.data.division import CHOOSE, FIT, JUDGE
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.result import Estimate, Verdict
 from pam_ros.identification.search.criteria import CRITERIA
@@ -107,6 +108,21 @@ def test_effects_that_the_judging_data_contradict_are_not_found(
     assert name == ('effect_found' if is_found else 'unexplained_structure')
 
 
+@pytest.mark.parametrize(('augmented', 'is_found'), [(9.8, True), (10.1, False)])
+def test_blocks_in_turn_show_no_continuation_and_the_judging_data_must(found, augmented, is_found):
+    """They explain as much as *choose* must elsewhere: 0.3 of the error may be left."""
+    noise = found.setting.noise
+    t = found.setting.parts[0].segment.t
+    ends = t[0] + np.array([0.2, 0.4, 0.75]) * (t[-1] - t[0])
+    in_turn = [
+        replace(part, ends=ends, roles=np.array([FIT, CHOOSE, FIT, JUDGE]))
+        for part in found.setting.parts
+    ]
+    slow = replace(found, setting=replace(found.setting, parts=in_turn))
+    name = verdict(ended(slow, 1.0, 33.0), 40.0 * noise, 33.0 * noise, augmented * noise)
+    assert name == ('effect_found' if is_found else 'unexplained_structure')
+
+
 @pytest.mark.parametrize(('duration', 'is_enough'), [(4.9, False), (5.2, True)])
 def test_a_recording_must_last(duration, is_enough):
     (segment,) = segments_of([bench_truth.free(duration=duration)])
@@ -187,6 +203,20 @@ def test_an_effect_that_far_constants_could_replace_is_named_with_this_reservati
     experiment = next_experiment(answer, answer.stages[0].model).text
     assert experiment.startswith('To distinguish between coulomb_friction and other constants, ')
     assert '--uncertain a2=10%' in experiment
+
+
+@pytest.mark.parametrize(
+    ('floors', 'remains'),
+    [
+        (2.9, ''),
+        (3.2, ', and something remains that no effect explains (3.2 noise floors)'),
+    ],
+)
+def test_the_first_sentence_says_that_something_remains(friction, floors, remains):
+    last = replace(friction.stages[2], held_error=floors * friction.noise.sigma)
+    text = sentence(replace(friction, stages=(*friction.stages[:2], last)), '')
+    beginning = 'The model lacks coulomb_friction (or hysteresis)'
+    assert text.startswith(f'{beginning}{remains}: with this effect the error on held-out data')
 
 
 def test_an_error_that_no_effect_explains_is_that_of_a_model_which_is_named(friction):

@@ -45,6 +45,7 @@ from .trials import (
     Trial,
     blind_trial,
     held_trial,
+    slow_trial,
     wide_trial,
 )
 from .visibility import Visibility, visibility
@@ -76,6 +77,7 @@ __all__ = [
     'play',
     'play_late',
     'record',
+    'slow_trial',
     'stamps',
     'visibility',
     'wide_trial',

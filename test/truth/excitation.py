@@ -87,6 +87,14 @@ def triangle(
     return low + (high - low) * np.interp(phase * along[-1], along, corners)
 
 
+def cycle(rate: float, duration: float, low: float, high: float, rng: Generator) -> np.ndarray:
+    """Return one slow rise from the lowest pressure and the fall back, as a ramp or a cosine."""
+    x = np.linspace(0.0, 1.0, round(rate * duration))
+    if rng.random() < 0.5:
+        return low + (high - low) * (1.0 - np.abs(1.0 - 2.0 * x))
+    return low + (high - low) * 0.5 * (1.0 - np.cos(2.0 * np.pi * x))
+
+
 def multisine(rate: float, duration: float, low: float, high: float, rng: Generator) -> np.ndarray:
     """Return twelve sines of 0.1 to 6 Hz about the middle, smaller where the load resonates."""
     t = np.arange(round(rate * duration)) / rate
@@ -156,6 +164,7 @@ def mixture_with_vents(
 PROGRAMMES: dict[str, Programme] = {
     'steps': steps,
     'triangle': triangle,
+    'cycle': cycle,
     'multisine': multisine,
     'chirp': chirp,
     'vents': vents,

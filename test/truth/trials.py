@@ -244,6 +244,19 @@ def wide_trial(kind: str, seed: int) -> Trial:
     return trial
 
 
+def slow_trial(kind: str, seed: int) -> Trial:
+    """Draw a trial of one slow cycle of 20 to 60 s, on a rig as in :func:`wide_trial`."""
+    base = wide_trial(kind, seed)
+    draw = _Draw('slow ' + kind, seed)
+    trial = replace(base, programme='cycle')
+    low, high = working_range(trial.constants_si, trial.mass)
+    duration = draw.uniform(20.0, 60.0)
+    u = PROGRAMMES[trial.programme](trial.rate, duration, low, high, draw.rng)
+    t = stamps(trial.rate, duration, trial.jitter, draw.rng)
+    trial.recording = _play(trial, t, u, seed)
+    return trial
+
+
 def held_trial(kind: str, seed: int) -> Trial:
     """Draw a trial at prescribed lengths: pressure and contraction in, force (2 N noise) out."""
     draw = _Draw('held ' + kind, seed)

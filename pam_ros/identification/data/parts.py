@@ -8,15 +8,26 @@ recordings: each may have a single step up, and a single step down at its end, w
 fit would use.
 A muscle at a prescribed length has no motion of its own, and such a recording often has a single
 rise and a single fall of the pressure. Then the parts are interleaved blocks of time, so that each
-part contains all of the excitation. It is the same if only pressures were recorded.
+part contains all of the excitation. It is the same if only pressures were recorded, and if the
+pressure of a load that moves freely rises and falls only once, as in a slow cycle.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.identification.data.division import (
+    CHOOSE,
+    FIT,
+    JUDGE,
+    Division,
+    deciding,
+    divide,
+    divide_in_time,
+    whole,
+)
 from pam_ros.identification.data.segment import (
     HeldSegment,
     Segment,
@@ -28,9 +39,6 @@ from pam_ros.recording.recording import Recording
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 FEWEST = 16  # smallest number of samples of a run that can be fitted
-BLOCKS = 20  # of a recording without a free motion: 3 s of a minute
-GOLDEN = 0.6180339887  # the fractional parts of its multiples fill 0 to 1 without a period
-FIT, CHOOSE, JUDGE = range(3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,8 +55,7 @@ class Part:
     roles: NDArray[np.int_]
 
     def _is(self, role: int) -> Mask:
-        block = np.searchsorted(self.ends, self.segment.t, side='right')
-        return np.asarray(self.roles[block] == role)
+        return np.asarray(Division(self.ends, self.roles).at(self.segment.t) == role)
 
     @property
     def fit(self) -> Mask:
@@ -69,6 +76,12 @@ class Part:
     def known(self) -> Mask:
         """Marks the samples that a verdict may be based on (n,): all that do not judge."""
         return ~self.judge
+
+    @property
+    def is_in_turn(self) -> bool:
+        """Whether blocks that decide come before blocks that are fitted."""
+        fit, choose = (np.flatnonzero(self.roles == role) for role in (FIT, CHOOSE))
+        return bool(fit.size and choose.size and choose[0] < fit[-1])
 
     @property
     def is_fitted(self) -> bool:
@@ -97,46 +110,49 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
     Raises RecordingError if kinds are mixed.
     """
     require_one_kind(recordings)
-    deciding = _deciding(recordings, 1.0 - fit / choose)
-    found = []
+    chosen = deciding(recordings, 1.0 - fit / choose)
+    found = {}
     for k, recording in enumerate(recordings):
-        segments = [replace(one, recording=k) for one in segments_of([recording])]
-        if not segments:
-            continue
-        start, end = segments[0].t[0], segments[-1].t[-1]
-        if recording.kind != 'free':
-            places = np.arange(1, BLOCKS) / BLOCKS
-            draws = _draws(BLOCKS)
-        elif deciding:
-            places = np.array([choose])
-            draws = np.array([fit if k in deciding else 0.0, choose])
-        else:
-            places, draws = np.array([fit, choose]), np.array([0.0, fit, choose])
-        # The last sample belongs to the last part that is not empty.
-        ends = np.where(places < 1.0, start + places * (end - start), np.inf)
-        roles = np.searchsorted([fit, choose], draws, side='right')
-        found += [Part(segment, ends, roles) for segment in segments]
-    return sorted(found, key=lambda part: not part.is_fitted)
+        segments = segments_of([recording])
+        if segments:
+            start, end = segments[0].t[0], segments[-1].t[-1]
+            if chosen:
+                found[k] = whole(start, end, CHOOSE if k in chosen else FIT, choose)
+            else:
+                found[k] = divide(recording, start, end, fit, choose)
+    return _parts(recordings, found)
 
 
-def _deciding(recordings: Sequence[Recording], share: float) -> set[int]:
-    """Return the indices of the free recordings that decide as a whole; none if there are few.
+def parts_in_time(recording: Recording, fit: float, choose: float) -> list[Part]:
+    """Return the stretches of *recording*, of which the first, next and last part have the roles.
 
-    Their duration is at most this *share* of the total duration.
+    The shares are those of :func:`parts_of`.
     """
-    if recordings[0].kind != 'free':
-        return set()
-    times = [recording.duration for recording in recordings]
-    found: set[int] = set()
-    for k in np.argsort(-_draws(len(recordings)), kind='stable').tolist():
-        if sum(times[i] for i in (*found, k)) <= share * sum(times):
-            found.add(k)
-    return found
+    segments = segments_of([recording])
+    start, end = segments[0].t[0], segments[-1].t[-1]
+    return _parts([recording], {0: divide_in_time(start, end, fit, choose)})
 
 
-def _draws(count: int) -> Array:
-    """Return numbers (count,) between 0 and 1, without a period."""
-    return np.asarray(np.arange(1, count + 1) * GOLDEN % 1.0, dtype=float)
+def like(parts: Sequence[Part], recordings: Sequence[Recording]) -> list[Part]:
+    """Return the stretches of *recordings*, divided as *parts* at the same times.
+
+    They are other signals of the recordings of *parts*, or have other inputs.
+    """
+    divisions = {p.segment.recording: Division(p.ends, p.roles) for p in parts}
+    return _parts(recordings, divisions)
+
+
+def _parts(recordings: Sequence[Recording], divisions: Mapping[int, Division]) -> list[Part]:
+    """Return the stretches of *recordings*, first those that are fitted.
+
+    The *divisions* are by the numbers of the recordings. One without a division has no stretch.
+    """
+    found = [
+        Part(replace(segment, recording=k), *division)
+        for k, division in divisions.items()
+        for segment in segments_of([recordings[k]])
+    ]
+    return sorted(found, key=lambda part: not part.is_fitted)
 
 
 def run_of(segment: Segment, fit: Mask) -> Segment:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import gmean
 
+from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import (
@@ -71,7 +72,7 @@ def bounded(problem: Problem, u: Array, joint: Joint, place: Place) -> Problem:
     """
     fitted = parameters_of(problem.unknowns, place.name)
     near = _values(problem.row_at(u), joint, place)
-    bounds = place.effect.fit_bounds(near, fitted, joint.load.mass)
+    bounds = place.effect.fit_bounds(near, fitted, joint.load.mass, _duration(problem.segments))
 
     def within(unknown: Unknown) -> Unknown:
         of = unknown.of
@@ -81,6 +82,14 @@ def bounded(problem: Problem, u: Array, joint: Joint, place: Place) -> Problem:
         return replace(unknown, low=max(unknown.low, low), high=min(unknown.high, high))
 
     return replace(problem, unknowns=tuple(map(within, problem.unknowns)))
+
+
+def _duration(segments: Sequence[Segment]) -> float:
+    """Return the duration in s of the longest recording, which may be cut into several runs."""
+    ends: dict[int, list[float]] = {}
+    for s in segments:
+        ends.setdefault(s.recording, []).extend((float(s.t[0]), float(s.t[-1])))
+    return max(max(times) - min(times) for times in ends.values())
 
 
 def _values(row: Array, joint: Joint, place: Place) -> dict[str, float]:

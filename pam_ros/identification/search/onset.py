@@ -112,8 +112,8 @@ def _runs(setting: Setting) -> list[Segment]:
     None either of a load without a spring, and of one that a machine holds.
     """
     segments = sorted((part.segment for part in setting.parts), key=lambda s: float(s.t[0]))
-    names = {s.name for s in segments}
-    if len(names) > 1 or any(a.t[-1] >= b.t[0] for a, b in pairwise(segments)):
+    numbers = {s.recording for s in segments}
+    if len(numbers) > 1 or any(a.t[-1] >= b.t[0] for a, b in pairwise(segments)):
         return []
     if setting.drifts or segments[0].kind != 'free':
         return []

@@ -179,6 +179,16 @@ class Setting:
         chosen = (part.segment.recording for part in self.parts if part.choose.any())
         return fitted.isdisjoint(chosen)
 
+    @property
+    def choices_interpolate(self) -> bool:
+        """Whether a free run is compared with *choose* only between times that are fitted.
+
+        Then only what judges shows how the run continues. False if other recordings judge.
+        """
+        is_in_turn = all(part.is_in_turn for part in self.parts)
+        is_free = self.parts[0].segment.kind == 'free'
+        return is_free and is_in_turn and any(part.judge.any() for part in self.parts)
+
     @cached_property
     def thin(self) -> list[Part]:
         """The parts that are searched, thinned."""

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
-from pam_ros.identification.data.parts import BLOCKS, parts_of, run_of
+from pam_ros.identification.data.division import BLOCKS
+from pam_ros.identification.data.parts import like, parts_in_time, parts_of, run_of
 from support import bench_truth
 
 FREE = bench_truth.free(duration=20.0)
@@ -97,7 +98,7 @@ def test_gaps_divide_a_recording_but_not_its_parts():
     np.testing.assert_array_equal(parts[0].ends, parts[1].ends)
     assert counts(parts[0])[1:] == [0, 0]
     # A stretch of which nothing is fitted comes last, so that fitted runs keep their numbers.
-    last = parts_of([gap], 0.2, 0.75)[-1]
+    last = parts_in_time(gap, 0.2, 0.75)[-1]
     assert counts(last)[0] == 0
 
 
@@ -144,6 +145,22 @@ def test_stretches_are_those_before_and_between_what_judges():
         np.concatenate([s.t for s in stretches]), part.segment.t[part.known]
     )
     assert all(np.ptp(np.diff(s.t)) < 1e-9 for s in stretches)
+
+
+def test_other_signals_of_the_same_recordings_have_the_same_parts():
+    """What judges the motion must not be fitted elsewhere, for example in the pressures."""
+    slow = np.abs(1.0 - 2.0 * FREE.t / FREE.t[-1])
+    cycle = replace(FREE, command_t=FREE.t, command=2e5 + 1e5 * slow)
+    parts = parts_of([FREE, cycle, replace(FREE, name='b')], 0.55, 0.75)
+    measured = [
+        replace(one, command_t=None, command=None, pressure=np.full(one.t.size, 2e5))
+        for one in (FREE, cycle, FREE)
+    ]
+    assert [part.is_in_turn for part in parts] == [False, True, False]
+    for one, other in zip(parts, like(parts, measured), strict=True):
+        assert one.segment.recording == other.segment.recording
+        np.testing.assert_array_equal(one.judge, other.judge)
+        np.testing.assert_array_equal(one.fit, other.fit)
 
 
 def test_recordings_of_two_kinds_are_refused():

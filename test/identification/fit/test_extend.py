@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Problems grow and shrink by effects, and nothing else of them changes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -179,6 +181,18 @@ def test_what_a_fit_ends_with_is_a_joint(problem, effect, start, end):
     found, _ = with_row(MODEL, row, SEGMENTS, [place], {})
     np.testing.assert_allclose(found.parameters().ravel(), row, rtol=1e-12)
     assert (now.unknowns != new.unknowns) is (effect != 'creep')
+
+
+def test_a_disturbance_is_periodic_within_a_recording_and_its_runs_are_parts_of_it(problem):
+    """Below, it would describe any slow error. The recording has 7.5 s in two runs."""
+    (one,) = problem.segments
+    later = replace(one, t=one.t + 5.0)
+    other = replace(one, recording=1)
+    runs = replace(problem, segments=(one, later, other))
+    place = PLACES['periodic_disturbance']
+    new, u = extended(runs, place, {'force_sin': 2.0, 'force_cos': 2.0, 'frequency': 1.0})
+    (low,) = (k.low for k in bounded(new, u, MODEL, place).unknowns if 'frequency' in k.name)
+    assert low == pytest.approx(3.0 / 7.5, rel=1e-2)
 
 
 def test_what_a_broader_effect_has_in_common_with_a_simpler_one(problem):
