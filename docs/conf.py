@@ -36,6 +36,7 @@ NAVIGATION = {
         'docs/plot',
         'docs/recordings',
         'docs/identification',
+        'docs/identification_trials',
         'docs/report',
         'docs/time',
         'docs/ros2_control',
