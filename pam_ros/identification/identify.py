@@ -47,7 +47,13 @@ from pam_ros.identification.search.search import (
     alternatives,
 )
 from pam_ros.identification.search.setting import Setting, transfer
-from pam_ros.identification.search.stages import at_place, onset_of, stages
+from pam_ros.identification.search.stages import (
+    at_place,
+    development_of,
+    onset_of,
+    stages,
+    visible_since,
+)
 from pam_ros.identification.search.table import candidates, is_instead_of_constants, reason_for
 from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.identification.verdict import (
@@ -258,9 +264,10 @@ def _conclusion(
     tests: Sequence[Segment],
 ) -> Conclusion:
     """Return the numbers of an identification, with its verdict."""
-    search = outcome.search
-    noise = _least(three, ends.parts, search.setting.pool)
+    setting = outcome.search.setting
+    noise = _least(three, ends.parts, setting.pool)
     is_found = decision.verdict == Verdict.EFFECT_FOUND
+    development = development_of(three[2], ends.parts, setting) if is_found else None
     first = ends.parts[0].segment
     return Conclusion(
         verdict=decision.verdict,
@@ -269,27 +276,31 @@ def _conclusion(
         noise=noise,
         stages=three,
         effects=_findings(outcome, three[2]) if is_found else (),
-        candidates=candidates(search),
-        structure=_structure(ends, search, noise.sigma),
+        candidates=candidates(outcome.search),
+        structure=_structure(ends, outcome.search, noise.sigma),
         segments=tuple(replace(part.segment, fit=part.known) for part in ends.parts),
         test=tuple(tests),
         recordings=outcome.given.recordings,
         test_recordings=outcome.given.test,
-        since=_since(decision, search, ends),
-        uncertain={name: str(given) for name, given in search.setting.uncertain.items()},
+        since=_since(decision, setting, ends, development),
+        transition=setting.transition,
+        development=development,
+        uncertain={name: str(given) for name, given in setting.uncertain.items()},
         doubt=outcome.doubt.reason if outcome.doubt else '',
         uses_pressures=outcome.path is not None,
     )
 
 
-def _since(decision: _Decision, search: Search, ends: FinalFits) -> Estimate | None:
+def _since(
+    decision: _Decision, setting: Setting, ends: FinalFits, development: float | None
+) -> Estimate | None:
     """Return the time in s from which the effects act, or the best model fails."""
-    if decision.verdict == Verdict.EFFECT_FOUND:
-        return onset_of(ends.augmented) if search.setting.onset is not None else None
-    since = decision.since
-    if decision.verdict != Verdict.UNEXPLAINED_STRUCTURE or since is None:
-        return None
-    return Estimate(since.time, since.low, since.high, 's')
+    since, is_found = decision.since, decision.verdict == Verdict.EFFECT_FOUND
+    if is_found and setting.transition is None:
+        return None if setting.onset is None else onset_of(ends.augmented)
+    if since is not None and (is_found or decision.verdict == Verdict.UNEXPLAINED_STRUCTURE):
+        return visible_since(since, ends.retuned, setting, development)
+    return None
 
 
 def _least(three: Sequence[Stage], parts: Sequence[Part], pool: Executor) -> Noise:

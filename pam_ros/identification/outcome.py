@@ -12,16 +12,11 @@ from dataclasses import dataclass, replace
 from pam_ros.identification.by_signal import find_by_signal
 from pam_ros.identification.clock_offset import on_one_clock, tests_on_one_clock
 from pam_ros.identification.data.by_signal import have_pressures
-from pam_ros.identification.data.parts import parts_in_time
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.different_loads import different_loads
 from pam_ros.identification.search.doubt import Doubt
-from pam_ros.identification.search.onset import (
-    OnsetEstimate,
-    estimate_onset,
-    find_late_effects,
-    shares_after,
-)
+from pam_ros.identification.search.late import Late, find_late_effects
+from pam_ros.identification.search.onset import OnsetEstimate, estimate_onset
 from pam_ros.identification.search.readings import likely_mistake
 from pam_ros.identification.search.search import Progress, Search, find_effects, without_effects
 from pam_ros.identification.search.setting import Setting
@@ -121,9 +116,8 @@ def _search(
     setting: Setting, since: OnsetEstimate | None, given: Given, notify: Progress
 ) -> Search:
     """Search for effects; for those that begin *since* then, in the parts after that time."""
-    later = since and shares_after(since, setting.parts, given.shares, CRITERIA.duration)
-    if not (since and later):
+    if since is None:
         return find_effects(setting, notify)
     (recording,) = given.recordings
-    late = replace(setting, parts=parts_in_time(recording, *later), onset=since.time)
-    return find_late_effects(setting, late, notify)
+    late = Late(setting, since, recording, given.shares, CRITERIA.duration)
+    return find_late_effects(late, notify)

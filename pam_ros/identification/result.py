@@ -133,11 +133,13 @@ class Conclusion:
     ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
     gapless stretches. Without test recordings a part of each recording was held out instead.
     ``since`` is the time in s, on the clock of the recording, at which the effects begin to act,
-    or from which the best model fails; None if this is the case from the start. ``uncertain`` are
-    the given standard deviations of nominal values, by parameter. ``doubt`` is the reason why the
-    recordings contradict what was stated about them, such as a unit, '' if they do not.
-    ``uses_pressures`` is whether measured pressures of a load that moves have shown effects of the
-    pressure path.
+    or from which the best model fails; None if this is the case from the start. ``transition`` are
+    the start and the end in s of the samples that were left out because the effects develop, and
+    ``development`` is the time in s after ``since`` within which they reach their full strength;
+    None if they appear at once, or are not known. ``uncertain`` are the given standard deviations
+    of nominal values, by parameter. ``doubt`` is the reason why the recordings contradict what was
+    stated about them, such as a unit, '' if they do not. ``uses_pressures`` is whether measured
+    pressures of a load that moves have shown effects of the pressure path.
     """
 
     verdict: Verdict
@@ -153,6 +155,8 @@ class Conclusion:
     recordings: tuple[Recording, ...]
     test_recordings: tuple[Recording, ...]
     since: Estimate | None
+    transition: tuple[float, float] | None
+    development: float | None
     uncertain: Mapping[str, str]
     doubt: str
     uses_pressures: bool

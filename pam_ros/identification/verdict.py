@@ -123,6 +123,8 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
         )
         these = 'this effect' if len(answer.effects) == 1 else 'these effects'
         since = '' if answer.since is None else f' from {onset_text(answer)} on'
+        if answer.development is not None:
+            since += f', developing within {answer.development:.2g} s'
         lacks = f'The model lacks {named}{since}{_remainder(answer)}'
         doubtful = [spelled(e.name) for e in answer.effects if e.or_constants]
         if doubtful:

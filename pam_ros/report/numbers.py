@@ -20,7 +20,7 @@ from pam_ros.report.runs import STAGES, Run, pressure_runs_of, sizes
 
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
-SCHEMA_VERSION = '2.10'
+SCHEMA_VERSION = '2.11'
 
 Table = dict[str, Any]
 
@@ -33,6 +33,7 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
         'sentence': result.sentence,
         'effects': [_effect(finding) for finding in result.effects],
         'since': None if result.since is None else asdict(result.since),
+        'transition': _transition(result),
         'error': _error(result, runs),
         'pressures': _pressures(pressure_runs_of(result)),
         'structure': {
@@ -54,6 +55,14 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
         'next_command': result.next_command,
         'provenance': _provenance(result, source),
     }
+
+
+def _transition(result: Identification) -> Table | None:
+    """Return the samples that were left out, and the time within which effects develop."""
+    if result.transition is None:
+        return None
+    start, end = result.transition
+    return {'start': start, 'end': end, 'development': result.development}
 
 
 def to_json(content: Table) -> str:
@@ -141,10 +150,13 @@ def _candidate(candidate: Candidate) -> Table:
 
 
 def _data(runs: list[Run], source: Provenance) -> Table:
-    held = sum(int(np.count_nonzero(run.held)) for run in runs)
+    fitted, held = (
+        sum(int(np.count_nonzero(mask)) for mask in masks)
+        for masks in ((run.fitted for run in runs), (run.held for run in runs))
+    )
     return {
         'segments': len(runs),
-        'fit_samples': sum(run.t.size for run in runs) - held,
+        'fit_samples': fitted,
         'held_out_samples': held,
         'recordings': [
             *(_recording(recording, 'fit') for recording in source.recordings),

@@ -38,7 +38,8 @@ class Run:
     rad, and per s) are those of the last model for a free load, without the noise of the
     measurement, or measured ones at a prescribed length, or 0 if only pressures were recorded.
     drive (n,) in Pa is the input as one signal, see :func:`drive_of`; that of a pressure is its
-    own command. since is the time in s from which effects act, None if from the start.
+    own command. since is the time in s from which effects act, None if from the start, and
+    transition are the start and the end in s of samples that no fit has used, None without them.
     """
 
     name: str
@@ -52,6 +53,13 @@ class Run:
     velocity: Array
     drive: Array
     since: float | None = None
+    transition: tuple[float, float] | None = None
+
+    @property
+    def fitted(self) -> Mask:
+        """Marks the samples that were fitted (n,)."""
+        start, end = self.transition or (np.inf, np.inf)
+        return ~self.held & ((self.t < start) | (self.t >= end))
 
     def residual(self, stage: int) -> Array:
         """Return measured - simulated (n,) of a stage."""
@@ -66,7 +74,8 @@ def runs_of(result: Identification) -> list[Run]:
         a, b, c = (_cut(stage.simulated[k]) for stage in result.stages)
         held = np.zeros_like(segment.fit) if result.test else ~segment.fit
         run = _run(segment, (a, b, c), held, False, joint)
-        found.append(run if result.since is None else replace(run, since=result.since.value))
+        since = None if result.since is None else result.since.value
+        found.append(replace(run, since=since, transition=result.transition))
     for k, segment in enumerate(result.test):
         a, b, c = (_cut(stage.tested[k]) for stage in result.stages)
         found.append(_run(segment, (a, b, c), np.ones_like(segment.fit), True, joint))
@@ -148,9 +157,9 @@ def drive_of(joint: Joint) -> Array:
 
 
 def sizes(runs: list[Run], stage: int) -> tuple[Size, Size]:
-    """Return the sizes of the errors of a stage: over the fitted samples, and over the others."""
+    """Return the sizes of the errors of a stage: over the fitted and the held-out samples."""
     fit, held = (
         size_of([r.residual(stage)[m] for r, m in picked], [r.target[m] for r, m in picked])
-        for picked in ([(r, ~r.held) for r in runs], [(r, r.held) for r in runs])
+        for picked in ([(r, r.fitted) for r in runs], [(r, r.held) for r in runs])
     )
     return fit, held

@@ -158,6 +158,25 @@ def test_what_begins_in_the_middle_is_named_with_its_moment():
     assert segment.t[segment.fit][-1] == pytest.approx(15.0 + 0.75 * 21.0, abs=0.3)
 
 
+def test_what_develops_is_named_with_the_time_that_it_takes():
+    filling = effect('payload', payload_kg=4.0)
+    recording = bench_truth.late(filling, 13.0, duration=40.0, within=4.0)
+    found = identify(bench_truth.nominal(off=OFF), [recording])
+    assert (found.verdict, names(found)) == ('effect_found', ['payload'])
+    assert found.effects[0].parameters['mass'].value == pytest.approx(4.0, rel=0.02)
+    assert found.since.value == pytest.approx(13.0, abs=0.2)
+    assert found.development == pytest.approx(4.0, abs=0.5)
+    assert f'developing within {found.development:.2g} s' in found.sentence
+    # The samples in which it develops are in no error.
+    start, end = found.transition
+    assert end == pytest.approx(21.0, abs=0.3)
+    assert found.stages[2].fit_error < 1.1 * NOISE
+    assert found.stages[2].held_error < 1.1 * NOISE
+    (segment,) = found.segments
+    e = found.stages[2].simulated[0] - segment.target
+    assert np.sqrt(np.mean(e[(segment.t >= start) & (segment.t < end)] ** 2)) > 10.0 * NOISE
+
+
 @pytest.mark.release
 def test_in_another_recording_it_is_there_from_the_start():
     late = bench_truth.late(effect('viscous_friction'), 12.0, duration=30.0)

@@ -20,7 +20,7 @@ from benchmarks.tracing import (
 from benchmarks.tracing_late import is_named, is_near, is_wrong
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.result import Estimate
-from truth import FORMS, LATE, TruthPlant, blind_trial, effect, late_trial, stamps
+from truth import DEVELOPING, FORMS, LATE, TruthPlant, blind_trial, effect, late_trial, stamps
 from truth.excitation import multisine
 
 
@@ -255,7 +255,7 @@ def test_the_figures_are_shares():
     assert tracing_late.scores(rows) == pytest.approx(figures)
 
 
-@pytest.mark.parametrize('kind', LATE)
+@pytest.mark.parametrize('kind', [*LATE, *DEVELOPING])
 def test_until_the_moment_nothing_is_there(kind):
     late = late_trial(kind, 3)
     trial, recording = late.trial, late.trial.recording

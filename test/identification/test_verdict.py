@@ -187,6 +187,8 @@ def test_an_effect_that_begins_in_the_middle_has_its_onset(friction):
     answer = replace(friction, since=since)
     found = sentence(replace(answer, verdict='effect_found'), '')
     assert 'lacks coulomb_friction (or hysteresis) from 12.50 s (12.40 to 12.60 s) on: ' in found
+    slow = sentence(replace(answer, verdict='effect_found', development=3.812), '')
+    assert ' from 12.50 s (12.40 to 12.60 s) on, developing within 3.8 s: ' in slow
     answer = replace(answer, verdict='unexplained_structure')
     until = 'explains the recording up to 12.50 s (12.40 to 12.60 s), but not after this time:'
     assert f'The re-tuned model {until}' in sentence(answer, '')

@@ -11,6 +11,7 @@ import pytest
 
 from pam_ros.identification.result import Estimate, Verdict
 from pam_ros.report.numbers import SCHEMA_VERSION, numbers, to_json
+from pam_ros.report.runs import runs_of
 from support.pages import ROOT
 
 
@@ -94,6 +95,23 @@ def test_the_moment_is_there_where_something_begins(friction, validate):
     report = json.loads(to_json(numbers(late, runs, source)))
     assert report['since'] == asdict(since)
     assert validate(report) == []
+
+
+def test_a_transition_is_stated_and_is_in_no_error(friction, validate):
+    result, source, _ = friction
+    late = replace(result, transition=(1.0, 3.0), development=1.5)
+    runs = runs_of(late)
+    report = json.loads(to_json(numbers(late, runs, source)))
+    assert report['transition'] == {'start': 1.0, 'end': 3.0, 'development': 1.5}
+    assert validate(report) == []
+    segment = result.segments[0]
+    used = segment.fit & ((segment.t < 1.0) | (segment.t >= 3.0))
+    assert np.count_nonzero(used) < np.count_nonzero(segment.fit)
+    assert report['data']['fit_samples'] == np.count_nonzero(used)
+    e = result.stages[2].simulated[0] - segment.target
+    fit = report['error']['augmented']['details']['fit']
+    assert fit['rmse'] == pytest.approx(np.sqrt(np.mean(e[used] ** 2)))
+    assert report_of(friction)['transition'] is None
 
 
 def test_data_are_described(tested):

@@ -56,9 +56,10 @@ def with_pressures(*effects, name='truth.csv', **settings):
     return replace(recording_of(true, name), pressure=true.pressure_pa)
 
 
-def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6, before=()):
+def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6, before=(), within=0.0):
     """Return the recording of a free load of 20 kg on which an effect begins at *onset* s.
 
+    It has its full strength *within* s.
     The effects *before* act from the start.
     """
     plant = TruthPlant(mass=MASS, effects=before, sensor=Sensor(noise=noise), seed=seed)
@@ -68,7 +69,7 @@ def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6, before=()):
     plant.reset(u[0], seed)
     t = stamps(rate, duration)
     first = int(np.searchsorted(t, onset))
-    return recording_of(play_late(plant, [one], t, u, first, seed), 'late.csv')
+    return recording_of(play_late(plant, [one], t, u, first, seed, within), 'late.csv')
 
 
 def step_and_back(one, seed, duration=12.0, rate=100.0, noise=20e-6):

@@ -33,7 +33,7 @@ from .catalogue import FORMS, KINDS, OUT_OF_LIBRARY
 from .control_plants import CONTROL_PLANTS, control_plant
 from .effects import Effect, effect
 from .excitation import PROGRAMMES, stamps, working_range
-from .late import LATE, LateTrial, late_trial, play_late
+from .late import DEVELOPING, LATE, LateTrial, late_trial, play_late
 from .plant import TruthPlant
 from .records import Recording, held_record, play, record
 from .sensor import Sensor
@@ -53,6 +53,7 @@ from .visibility import Visibility, visibility
 __all__ = [
     'ABSORBED',
     'CONTROL_PLANTS',
+    'DEVELOPING',
     'FORMS',
     'KINDS',
     'LATE',

@@ -27,6 +27,7 @@ from truth import (
     effect,
     held_record,
     held_trial,
+    play_late,
     record,
     visibility,
     wide_trial,
@@ -65,6 +66,23 @@ def test_programmes_stay_in_their_range_and_move(name, rate):
 def test_the_mixture_ends_with_its_first_segment():
     u = PROGRAMMES['mixture'](100.0, 100.0, 1e5, 3e5, np.random.default_rng(0))
     np.testing.assert_array_equal(u[-1100:], u[100:1200])
+
+
+@pytest.mark.parametrize('slows', [False, True])
+def test_an_effect_develops_to_its_full_strength(slows):
+    """A twentieth of the pressure is lost in 4 s, at a constant rate or most of it at first."""
+    t = np.arange(0.0, 8.0, 0.01)
+    u = np.full(t.size, 200e3)
+    loss = effect('pressure_offset', regulator_pa=0.0, regulator_gain=0.95)
+    got = play_late(TruthPlant(p0=u[0]), [loss], t, u, 200, within=4.0, slows=slows)
+    np.testing.assert_array_equal(got.t_s, t)
+    lost = 1.0 - got.pressure_pa / u
+    shares = np.clip((t - 2.0) / 4.0, 0.0, 1.0)
+    if slows:
+        shares = (1.0 - np.exp(-3.0 * shares)) / (1.0 - np.exp(-3.0))
+    # A stage is 2 % of the time, and the noise is 300 Pa, 3 % of the loss.
+    np.testing.assert_allclose(lost, 0.05 * shares, atol=0.05 * 0.2)
+    assert np.mean(lost - 0.05 * shares) == pytest.approx(0.0, abs=0.05 * 0.02)
 
 
 def test_every_form_has_fields_of_the_plant_and_runs():

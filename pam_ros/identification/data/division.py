@@ -23,6 +23,7 @@ from pam_ros.recording.recording import Recording
 
 Array = NDArray[np.float64]
 FIT, CHOOSE, JUDGE = range(3)
+LEFT_OUT = -1  # the role of samples in which an effect develops: they are in no part
 BLOCKS = 20  # of a recording with interleaved parts: 3 s of a minute
 GOLDEN = 0.6180339887  # the fractional parts of its multiples fill 0 to 1 without a period
 # Changes of the input within this share of its range are no change of its direction.

@@ -69,6 +69,9 @@ def _score(n: int, square: float, normal: Array, z: Array, prior: Array) -> floa
     variance = square / n
     scaled = normal * np.outer(prior, prior)
     _, price = np.linalg.slogdet(np.eye(prior.size) + scaled / variance)
+    if not np.isfinite(price):
+        # Derivatives of a cheap fit can be so large that 1 is lost, and the sum is singular.
+        price = np.sum(np.log1p(np.maximum(np.linalg.eigvalsh(scaled / variance), 0.0)))
     return float(n * np.log(variance) + z @ z + price)
 
 

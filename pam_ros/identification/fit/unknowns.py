@@ -273,14 +273,16 @@ def time_unknowns(segments: Sequence[Segment]) -> list[Unknown]:
     return [Unknown(CommandTime(), 0.0, spread, prior=1.0)] if spread else []
 
 
-def onset_unknown(segments: Sequence[Segment], near: float) -> Unknown:
+def onset_unknown(segments: Sequence[Segment], near: float, is_searched: bool = True) -> Unknown:
     """Return the time in s at which effects begin, as an unknown that is searched *near* a time.
 
-    The only prior knowledge is that it lies within the recording.
+    The only prior knowledge is that it lies within the recording. It is not searched if the
+    samples that show it are left out.
     """
     first, last = segments[0].t[0], max(s.t[-1] for s in segments)
     spread = (last - first) / sqrt(12.0)  # of a uniform distribution
-    return Unknown(OnsetTime(), near, 1.0, first, last, spread)
+    low, high = (first, last) if is_searched else (near, near)
+    return Unknown(OnsetTime(), near, 1.0, low, high, spread)
 
 
 def effect_unknowns(model: Joint, place: Place, start: Mapping[str, float]) -> list[Unknown]:

@@ -18,6 +18,7 @@ from pam_ros.identification.search.setting import Model, Setting, rms, simulate_
 from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 STEP = 1e-3  # s, longest step of the simulations of a rig that is not slow
 STEPS = 20  # of a slow rig, in the longest period that its fastest oscillation allows
 
@@ -41,7 +42,7 @@ def fit_finally(search: Search) -> FinalFits:
     """Return the models of a search, fitted completely: by least squares of the free run."""
     setting = search.setting
     parts = tuple(sorted(setting.parts, key=lambda part: not _is_run(part)))
-    runs = [run_of(part.segment, part.known) for part in parts if _is_run(part)]
+    runs = [run_of(part.segment, _is_used(part)) for part in parts if _is_run(part)]
     whole = setting.problem_of(runs, short_step(setting.coarse_period(LONGEST_PERIOD)))
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
     nominal = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
@@ -59,8 +60,14 @@ def short_step(period: float) -> float:
     return max(STEP, period / STEPS)
 
 
+def _is_used(part: Part) -> Mask:
+    """Return a mark (n,) for each sample that is fitted or decides: no judge, no transition."""
+    used: Mask = part.fit | part.choose
+    return used
+
+
 def _is_run(part: Part) -> bool:
-    return int(np.count_nonzero(part.known)) >= FEWEST
+    return int(np.count_nonzero(_is_used(part))) >= FEWEST
 
 
 def _nearer(search: Search, whole: Problem) -> tuple[Problem, Array]:
@@ -130,12 +137,13 @@ def simulated(solution: Solution, parts: Sequence[Part], setting: Setting) -> li
 
 
 def errors_of(runs: Sequence[Array], parts: Sequence[Part]) -> tuple[float, float]:
-    """Return the RMSE in m, rad or N of free runs through *parts*: without *judge*, and over it.
+    """Return the RMSE in m, rad or N of free runs through *parts*: of what was used, and *judge*.
 
     NaN if there are no judging samples. It is only for reports: a search must not use the data
     that judge it.
     """
     left = [run - part.segment.target for run, part in zip(runs, parts, strict=True)]
+    used = np.concatenate([_is_used(part) for part in parts])
     judge = np.concatenate([part.judge for part in parts])
     e = np.concatenate(left)
-    return rms(e[~judge]), rms(e[judge])
+    return rms(e[used]), rms(e[judge])

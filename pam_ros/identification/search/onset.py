@@ -18,14 +18,11 @@ from numpy.typing import NDArray
 from pam_ros.identification.data.parts import FEWEST, Part, run_of
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.data.thinning import thinned
-from pam_ros.identification.fit.extend import memories
-from pam_ros.identification.fit.onset import WILKS, index_of_onset
+from pam_ros.identification.fit.onset import WILKS
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import converge, initial_solution, least_squares
+from pam_ros.identification.fit.solve import initial_solution, least_squares
 from pam_ros.identification.fit.unknowns import OF_RUNS
-from pam_ros.identification.search.search import Progress, Search, find_effects
 from pam_ros.identification.search.setting import Model, Setting, rms, transfer
-from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
 BLOCKS, WITHIN = 20, 10  # blocks of a recording (3 s of a minute), and of a block
@@ -102,6 +99,9 @@ def _estimate(
     located = _located(t[near], left[near])
     if rms(left[t < located.time]) > setting.noise / setting.criteria.left:
         return None
+    # Constants of an earlier fit leave slow errors, which are as large as what only just begins.
+    left = whole.residuals(_fitted(whole, float(edges[first]), known, setting))
+    located = _located(t[near], left[near])
     # An effect becomes visible only some time after it begins.
     return replace(located, low=min(located.low, float(edges[first])))
 
@@ -135,41 +135,6 @@ def shares_after(
     # A share of 1 remains exactly 1.
     fit, choose = (1.0 - (1.0 - share) * (1.0 - gone) for share in shares)
     return (fit, choose) if (fit - gone) * (last - first) >= least else None
-
-
-def find_late_effects(setting: Setting, late: Setting, progress: Progress) -> Search:
-    """Find the effects that begin late, or else those that act from the start.
-
-    *late* is the setting in which all effects begin at one time, and *setting* is that in which
-    they act from the start. A model that lacks an effect from the start can also fail only in the
-    middle, for example if the load reaches an end stop there for the first time. If the effects
-    explain as much when they act from the start, none of them begins later. The cost of the
-    unknowns is not compared: the derivative by an onset between two commands may be 0, and then
-    its cost is not known.
-    """
-    found = find_effects(late, progress)
-    best = found.best
-    if best.effects:
-        gain = _from_start(best, late).solution.cost - best.solution.cost
-        if gain > late.criteria.margin:
-            return found
-    return find_effects(setting, progress)
-
-
-def _from_start(late: Model, setting: Setting) -> Model:
-    """Return the model with the same effects, acting from the start of the recording."""
-    known = late.solution
-    k = index_of_onset(known)
-    assert k is not None
-    unknowns = known.problem.unknowns
-    problem = replace(known.problem, unknowns=(*unknowns[:k], *unknowns[k + 1 :]))
-    memory = [one for name in late.effects for one in memories(problem, setting.places[name])]
-    whole = replace(problem, unknowns=(*problem.unknowns, *memory))
-    u = np.concatenate([np.delete(known.u, k), np.zeros(len(memory))])
-    plain = without_idle(
-        initial_solution(whole, u, known.discrepancy, setting.pool), setting.noise
-    )
-    return setting.model(late.effects, converge(plain, setting.budget.iterations, setting.pool))
 
 
 def _failing(

@@ -131,8 +131,8 @@ class Setting:
     muscles: tuple[str, ...] = ()  # names of the muscles of a joint that has several
     uncertain: Spreads = field(default_factory=dict)  # standard deviations of nominal values
     onset: float | None = None  # s, near which effects begin; None: at the start
-    # Whether the input are the pressures in the chambers, for which the commands are known, too.
-    is_behind_chambers: bool = False
+    transition: tuple[float, float] | None = None  # s, left out, in which they develop
+    is_behind_chambers: bool = False  # whether the input are chamber pressures, commands known
 
     @cached_property
     def noise(self) -> float:
@@ -248,7 +248,7 @@ class Setting:
         levels = level_unknowns(runs, self.joint)
         starts = [*time_unknowns(runs), *run_unknowns(runs, sigma)]
         if self.onset is not None:
-            starts.append(onset_unknown(runs, self.onset))
+            starts.append(onset_unknown(runs, self.onset, self.transition is None))
         retuned = spread_unknowns(self.joint, self.muscles, self.uncertain)
         unknowns = [*([] if self.is_of_pressures else retuned), *starts, *levels]
         return Problem(

@@ -3,10 +3,12 @@
 """The final fits in a form for reports: models, parameters with intervals, errors, free runs."""
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.identification.data.parts import Part
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.intervals import half_widths
@@ -16,12 +18,14 @@ from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.unknowns import OF_RUNS, OnsetTime, Unknown
 from pam_ros.identification.result import Estimate, Stage
 from pam_ros.identification.search.final import FinalFits, errors_of, simulated
+from pam_ros.identification.search.onset import OnsetEstimate
 from pam_ros.identification.search.search import Search
-from pam_ros.identification.search.setting import rms, simulate_on
+from pam_ros.identification.search.setting import Setting, rms, simulate_on
 from pam_ros.identification.source_units import in_source_units, with_row
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
+BLOCK = 0.25  # s, in which the error of a model is compared with that of its fit
 NEAR = 1e-6  # distance of u from its bound that counts as 0
 
 
@@ -87,6 +91,41 @@ def estimates(solution: Solution, process: Discrepancy, joint: Joint) -> dict[st
 def onset_of(solution: Solution) -> Estimate:
     """Return the time in s at which the effects of a fit begin, with its 95 % interval."""
     return Estimate(*interval(solution), 's')
+
+
+def development_of(last: Stage, parts: Sequence[Part], setting: Setting) -> float | None:
+    """Return the s after the onset within which effects develop, None if they appear at once.
+
+    *last* is the model with the effects, after the last fits to *parts*. They have developed when
+    its error in BLOCK s is no longer larger than that of the fit by the factor 1/``left``.
+    """
+    if setting.transition is None or setting.onset is None:
+        return None
+    start, end = setting.transition
+    most = max(setting.noise, last.fit_error) / setting.criteria.left
+    t = np.concatenate([part.segment.t for part in parts])
+    e = np.concatenate(
+        [run - p.segment.target for run, p in zip(last.simulated, parts, strict=True)]
+    )
+    edges = np.arange(start, end + BLOCK, BLOCK)
+    errors = [e[(t >= a) & (t < b)] for a, b in pairwise(edges)]
+    large = [b for one, b in zip(errors, edges[1:], strict=True) if one.size and rms(one) > most]
+    return float(max(large, default=end)) - setting.onset
+
+
+def visible_since(
+    since: OnsetEstimate, retuned: Solution, setting: Setting, development: float | None
+) -> Estimate:
+    """Return the time in s from which effects are visible, with the interval of their beginning.
+
+    Effects that develop in *development* s are visible only after they have grown to the share of
+    the error of the *retuned* model that :mod:`.onset` detects.
+    """
+    low = since.low
+    if development is not None:
+        share = setting.noise / setting.criteria.left / rms(retuned.r)
+        low = min(low, since.time - share * development)
+    return Estimate(since.time, low, since.high, 's')
 
 
 def _estimate(unknown: Unknown, u: float, width: float, joint: Joint) -> Estimate:

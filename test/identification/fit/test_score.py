@@ -115,3 +115,12 @@ def test_unknowns_that_were_fitted_do_not_hide_the_slow_part():
     true = process.size**2 * process.time  # the process' spectral density at rest, half of it
     assert np.median(spreads['without']) < 0.5 * true
     assert 0.6 * true < np.median(spreads['with']) < 1.7 * true
+
+
+def test_derivatives_beside_which_one_is_lost_have_a_finite_score():
+    """Two equal columns: 1 + J'J is singular to the last digit, and its logarithm was -inf."""
+    jacobian = 1e12 * np.ones((T.size, 2))
+    found = score(NOISE, one_run(jacobian), np.zeros(2), np.ones(2), 0.0)
+    variance = np.mean(NOISE**2)
+    price = np.log1p(2.0 * T.size * 1e24 / variance)
+    assert found == pytest.approx(T.size * np.log(variance) + price, rel=1e-9)

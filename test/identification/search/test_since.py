@@ -13,12 +13,10 @@ from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.onset import (
     OnsetEstimate,
     estimate_onset,
-    find_late_effects,
     shares_after,
 )
 from pam_ros.identification.search.starts import screen
 from support import bench_truth, searches
-from support.marks import at_release
 from truth import effect
 
 ONSET = 17.0
@@ -104,31 +102,6 @@ def test_the_shares_are_of_what_comes_after(setting_of):
 
 @pytest.mark.slow
 @pytest.mark.needs_numba
-@pytest.mark.parametrize(
-    'one',
-    [
-        effect('viscous_friction'),
-        at_release(effect('payload', payload_kg=-4.0)),
-        at_release(effect('leak', 'refill')),
-    ],
-    ids=lambda one: one.kind,
-)
-def test_what_begins_is_named_with_its_moment(setting_of, one):
-    recording = bench_truth.late(one, ONSET)
-    since = estimate_onset(setting_of(recording))
-    setting = setting_of(recording)
-    shares = shares_after(since, setting.parts, SHARES, CRITERIA.duration)
-    late = replace(setting_of(recording, shares=shares), onset=since.time)
-    found = find_late_effects(setting, late, lambda share, text: None)
-    assert found.setting is late
-    assert found.best.effects == (one.kind,)
-    k = index_of_onset(found.best.solution)
-    unknown = found.best.solution.problem.unknowns[k]
-    assert unknown.value(found.best.solution.u[k]) == pytest.approx(ONSET, abs=0.05)
-
-
-@pytest.mark.slow
-@pytest.mark.needs_numba
 @pytest.mark.parametrize('name', ['payload', 'creep'])
 def test_cheap_fits_keep_the_onset(name, setting_of):
     """Their steps are large: a payload ended in a minimum a second before the right onset."""
@@ -148,23 +121,3 @@ def test_cheap_fits_keep_the_onset(name, setting_of):
         end = converge(found[0], BUDGET.iterations)
         k = index_of_onset(end)
         assert end.problem.unknowns[k].value(end.u[k]) == pytest.approx(ONSET, abs=0.01)
-
-
-@pytest.mark.release
-@pytest.mark.slow
-@pytest.mark.needs_numba
-def test_an_end_stop_that_is_met_late_was_there_from_the_start(setting_of):
-    """The load meets it for the first time in the middle, which looks like something that begins.
-
-    Both models explain it; that which needs no moment is the plainer one.
-    """
-    whole = bench_truth.free(seed=0, duration=40.0)
-    highest = np.maximum.accumulate(whole.position)
-    stop = 0.5 * (highest[int(0.3 * whole.t.size)] + highest[-1])
-    assert whole.t[np.argmax(highest > stop)] > 8.0
-    recording = bench_truth.free(effect('end_stop', stop_m=float(stop)), duration=40.0)
-    setting = setting_of(recording)
-    late = replace(setting, onset=estimate_onset(setting).time)
-    found = find_late_effects(setting, late, lambda share, text: None)
-    assert found.best.effects == ('end_stop',)
-    assert found.setting is setting
