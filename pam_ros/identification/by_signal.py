@@ -8,13 +8,13 @@ smaller, and an error of the one does not hide an effect of the other. Then all 
 fitted together to the motion under the commands alone, which is what is reported.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pam_ros.identification.data.by_signal import behind_chambers, of_chambers
-from pam_ros.identification.data.parts import like
+from pam_ros.identification.data.parts import like, parts_in_turn
 from pam_ros.identification.data.segment import PressureSegment
 from pam_ros.identification.fit.extend import bounded, with_effect
 from pam_ros.identification.fit.places import effect_of
@@ -35,7 +35,6 @@ from pam_ros.identification.verdict import WEATHER
 from pam_ros.identification.wording import listed
 from pam_ros.recording.quantities import ATMOSPHERE
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.joint import Joint
 
 # Shares of the progress at which the searches begin.
 MOTION, TOGETHER = 0.3, 0.6
@@ -61,19 +60,20 @@ class BySignal:
 def find_by_signal(
     setting: Setting,
     recordings: Sequence[Recording],
-    setting_of: Callable[[Joint, Sequence[Recording]], Setting],
+    shares: tuple[float, float],
     progress: Progress,
 ) -> BySignal:
     """Find the effects in *recordings*, which have commands and measured pressures.
 
-    *setting* is their setting, and setting_of(joint, recordings) returns that of others.
+    *setting* is their setting, and *shares* are those of its parts. What judges there is used
+    nowhere else.
     """
 
     def part(begin: float, end: float, what: str) -> Progress:
         return lambda share, text: progress(begin + share * (end - begin), f'{what}: {text}')
 
     chambers = [of_chambers(one) for one in recordings]
-    of_path = replace(setting_of(setting.joint, chambers), parts=like(setting.parts, chambers))
+    of_path = replace(setting, parts=parts_in_turn(chambers, *shares))
     path, reason = None, idle(recordings)
     if not reason and (doubt := likely_mistake(of_path, {})):
         reason = doubt.reason
@@ -84,11 +84,7 @@ def find_by_signal(
         note = f'the measured pressures are not used: {reason}'
         return BySignal(find_effects(setting, progress), None, note)
     behind = [behind_chambers(one) for one in recordings]
-    of_motion = replace(
-        setting_of(setting.joint, behind),
-        parts=like(setting.parts, behind),
-        is_behind_chambers=True,
-    )
+    of_motion = replace(setting, parts=like(setting.parts, behind), is_behind_chambers=True)
     motion = _found(of_motion, part(MOTION, TOGETHER, 'motion'))
     together = part(TOGETHER, 1.0, 'both')
     found = without_effects(setting, together)

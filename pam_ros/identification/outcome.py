@@ -91,9 +91,9 @@ def search_recordings(
     def again(recordings: Sequence[Recording]) -> Outcome:
         corrected = replace(given, recordings=tuple(recordings))
         own = setting_of(setting.joint, recordings)
-        return _searched(own, corrected, setting_of, lambda share, text: notify(0.85, text))
+        return _searched(own, corrected, lambda share, text: notify(0.85, text))
 
-    first = _searched(setting, given, setting_of, notify)
+    first = _searched(setting, given, notify)
     # Before the clocks, since another load can seem to be another clock, and takes longer.
     doubt = different_loads(first.search, given.recordings)
     if doubt:
@@ -104,10 +104,10 @@ def search_recordings(
     return replace(outcome, given=given, clocks=(*sentences, *others))
 
 
-def _searched(setting: Setting, given: Given, setting_of: SettingOf, notify: Progress) -> Outcome:
+def _searched(setting: Setting, given: Given, notify: Progress) -> Outcome:
     since = estimate_onset(setting)
     if since is None and have_pressures(given.recordings):
-        found = find_by_signal(setting, given.recordings, setting_of, notify)
+        found = find_by_signal(setting, given.recordings, given.shares, notify)
         return Outcome(found.search, None, given, path=found.path, note=found.note)
     return Outcome(_search(setting, since, given, notify), since, given)
 

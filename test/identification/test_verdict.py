@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.data.division import CHOOSE, FIT, JUDGE
+from pam_ros.identification.data.division import CHOOSE, FIT, JUDGE, Division
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.result import Estimate, Verdict
 from pam_ros.identification.search.criteria import CRITERIA
@@ -114,10 +114,8 @@ def test_blocks_in_turn_show_no_continuation_and_the_judging_data_must(found, au
     noise = found.setting.noise
     t = found.setting.parts[0].segment.t
     ends = t[0] + np.array([0.2, 0.4, 0.75]) * (t[-1] - t[0])
-    in_turn = [
-        replace(part, ends=ends, roles=np.array([FIT, CHOOSE, FIT, JUDGE]))
-        for part in found.setting.parts
-    ]
+    division = Division(ends, np.array([FIT, CHOOSE, FIT, JUDGE]))
+    in_turn = [replace(part, division=division) for part in found.setting.parts]
     slow = replace(found, setting=replace(found.setting, parts=in_turn))
     name = verdict(ended(slow, 1.0, 33.0), 40.0 * noise, 33.0 * noise, augmented * noise)
     assert name == ('effect_found' if is_found else 'unexplained_structure')

@@ -49,6 +49,19 @@ class Division(NamedTuple):
         """Return the roles (n,) of the times t (n,) in s."""
         return np.asarray(self.roles[np.searchsorted(self.ends, t, side='right')])
 
+    @property
+    def is_in_turn(self) -> bool:
+        """Whether blocks that decide come before blocks that are fitted."""
+        fit, choose = (np.flatnonzero(self.roles == role) for role in (FIT, CHOOSE))
+        return bool(fit.size and choose.size and choose[0] < fit[-1])
+
+    def without(self, start: float, end: float) -> 'Division':
+        """Return the division in which the times from *start* to *end* s have no role."""
+        inside = (self.ends > start) & (self.ends <= end)
+        first, last = (int(np.searchsorted(self.ends, at, side='right')) for at in (start, end))
+        ends = np.sort(np.concatenate([self.ends[~inside], [start, end]]))
+        return Division(ends, np.array([*self.roles[: first + 1], LEFT_OUT, *self.roles[last:]]))
+
 
 def divide(recording: Recording, start: float, end: float, fit: float, choose: float) -> Division:
     """Return the division of *recording* between *start* and *end* in s.
@@ -56,15 +69,15 @@ def divide(recording: Recording, start: float, end: float, fit: float, choose: f
     *fit* is the share of the time that is fitted, *choose* the share that is fitted or decides.
     """
     if recording.kind != 'free':
-        return _of_blocks(start, end, fit, choose, 1.0)
+        return divide_in_turn(start, end, fit, choose, 1.0)
     in_time = divide_in_time(start, end, fit, choose)
     if contain_all(in_time, recording):
         return in_time
-    in_turn = _of_blocks(start, end, fit, choose, choose)
+    in_turn = divide_in_turn(start, end, fit, choose, choose)
     return in_turn if contain_all(in_turn, recording) else in_time
 
 
-def whole(start: float, end: float, role: int, choose: float) -> Division:
+def with_one_role(start: float, end: float, role: int, choose: float) -> Division:
     """Return the division in which all that does not judge has one *role*, see :func:`divide`."""
     return _division(start, end, np.array([choose]), np.array([role, JUDGE]))
 
@@ -74,7 +87,7 @@ def divide_in_time(start: float, end: float, fit: float, choose: float) -> Divis
     return _division(start, end, np.array([fit, choose]), np.array([FIT, CHOOSE, JUDGE]))
 
 
-def _of_blocks(start: float, end: float, fit: float, choose: float, until: float) -> Division:
+def divide_in_turn(start: float, end: float, fit: float, choose: float, until: float) -> Division:
     """Return the division into blocks in turn, up to the share *until* of the time.
 
     What comes later judges.

@@ -12,7 +12,7 @@ part contains all of the excitation. It is the same if only pressures were recor
 pressure of a load that moves freely rises and falls only once, as in a slow cycle.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,7 +26,8 @@ from pam_ros.identification.data.division import (
     deciding,
     divide,
     divide_in_time,
-    whole,
+    divide_in_turn,
+    with_one_role,
 )
 from pam_ros.identification.data.segment import (
     HeldSegment,
@@ -36,26 +37,22 @@ from pam_ros.identification.data.segment import (
 )
 from pam_ros.recording.recording import Recording
 
-Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 FEWEST = 16  # smallest number of samples of a run that can be fitted
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A gapless stretch of a recording, and the role of each of its blocks.
+    """A gapless stretch of a recording, and the division of the recording.
 
-    ``ends`` (m,) are the times in s, ascending, at which a block ends. ``roles`` (m + 1,) are the
-    roles of the blocks: a block is fitted, decides between models, or judges. A judging block is
-    not used before the verdict.
+    The samples that judge are not used before the verdict.
     """
 
     segment: Segment
-    ends: Array
-    roles: NDArray[np.int_]
+    division: Division
 
     def _is(self, role: int) -> Mask:
-        return np.asarray(Division(self.ends, self.roles).at(self.segment.t) == role)
+        return np.asarray(self.division.at(self.segment.t) == role)
 
     @property
     def fit(self) -> Mask:
@@ -78,10 +75,10 @@ class Part:
         return ~self.judge
 
     @property
-    def is_in_turn(self) -> bool:
-        """Whether blocks that decide come before blocks that are fitted."""
-        fit, choose = (np.flatnonzero(self.roles == role) for role in (FIT, CHOOSE))
-        return bool(fit.size and choose.size and choose[0] < fit[-1])
+    def used(self) -> Mask:
+        """Marks the samples that are fitted or decide (n,): no judge, and none left out."""
+        used: Mask = self.fit | self.choose
+        return used
 
     @property
     def is_fitted(self) -> bool:
@@ -111,16 +108,13 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
     """
     require_one_kind(recordings)
     chosen = deciding(recordings, 1.0 - fit / choose)
-    found = {}
-    for k, recording in enumerate(recordings):
-        segments = segments_of([recording])
-        if segments:
-            start, end = segments[0].t[0], segments[-1].t[-1]
-            if chosen:
-                found[k] = whole(start, end, CHOOSE if k in chosen else FIT, choose)
-            else:
-                found[k] = divide(recording, start, end, fit, choose)
-    return _parts(recordings, found)
+
+    def division(k: int, start: float, end: float) -> Division:
+        if chosen:
+            return with_one_role(start, end, CHOOSE if k in chosen else FIT, choose)
+        return divide(recordings[k], start, end, fit, choose)
+
+    return _parts(recordings, division)
 
 
 def parts_in_time(recording: Recording, fit: float, choose: float) -> list[Part]:
@@ -128,9 +122,17 @@ def parts_in_time(recording: Recording, fit: float, choose: float) -> list[Part]
 
     The shares are those of :func:`parts_of`.
     """
-    segments = segments_of([recording])
-    start, end = segments[0].t[0], segments[-1].t[-1]
-    return _parts([recording], {0: divide_in_time(start, end, fit, choose)})
+    return _parts([recording], lambda k, start, end: divide_in_time(start, end, fit, choose))
+
+
+def parts_in_turn(recordings: Sequence[Recording], fit: float, choose: float) -> list[Part]:
+    """Return the stretches of *recordings*, whose blocks before those that judge are in turn.
+
+    The shares are those of :func:`parts_of`, and the same samples judge.
+    """
+    return _parts(
+        recordings, lambda k, start, end: divide_in_turn(start, end, fit, choose, choose)
+    )
 
 
 def like(parts: Sequence[Part], recordings: Sequence[Recording]) -> list[Part]:
@@ -138,20 +140,23 @@ def like(parts: Sequence[Part], recordings: Sequence[Recording]) -> list[Part]:
 
     They are other signals of the recordings of *parts*, or have other inputs.
     """
-    divisions = {p.segment.recording: Division(p.ends, p.roles) for p in parts}
-    return _parts(recordings, divisions)
+    divisions = {part.segment.recording: part.division for part in parts}
+    return _parts(recordings, lambda k, start, end: divisions.get(k))
 
 
-def _parts(recordings: Sequence[Recording], divisions: Mapping[int, Division]) -> list[Part]:
+def _parts(
+    recordings: Sequence[Recording], division_of: Callable[[int, float, float], Division | None]
+) -> list[Part]:
     """Return the stretches of *recordings*, first those that are fitted.
 
-    The *divisions* are by the numbers of the recordings. One without a division has no stretch.
+    division_of(k, start, end) returns the division of recording k between these times in s, or
+    None if it has no stretch that is used.
     """
-    found = [
-        Part(replace(segment, recording=k), *division)
-        for k, division in divisions.items()
-        for segment in segments_of([recordings[k]])
-    ]
+    found = []
+    for k, recording in enumerate(recordings):
+        segments = segments_of([recording])
+        if segments and (division := division_of(k, segments[0].t[0], segments[-1].t[-1])):
+            found += [Part(replace(segment, recording=k), division) for segment in segments]
     return sorted(found, key=lambda part: not part.is_fitted)
 
 

@@ -55,7 +55,7 @@ def without_rests(part: Part, noise: float) -> Part:
             drive_t=earlier(segment.drive_t[sent]),
             drive=segment.drive[sent],
         ),
-        ends=earlier(part.ends),
+        division=part.division._replace(ends=earlier(part.division.ends)),
     )
 
 

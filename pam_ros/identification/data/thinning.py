@@ -14,17 +14,24 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.data.segment import CommandedSegment, HeldSegment, Segment
+from pam_ros.identification.data.segment import (
+    CommandedSegment,
+    HeldSegment,
+    PressureSegment,
+    Segment,
+)
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int_]
 
 PHASE = 0.5  # rad of the rig's fastest oscillation in one period
 PERIODS = (1e-3, 10e-3)  # s, shortest period, and the longest one unless there are many samples
 LONGEST_PERIOD = 50e-3  # s, longest period: commands that change fast keep shorter steps
 JUMP = 0.01  # change of a command that is a jump, as a share of its range
+LEAP = 0.05  # change of a measured pressure over a stride that is a jump, as a share of its range
 RAMP = 0.003  # change of a command over a long stride that is a ramp, as a share of its range
 ROUNDING = 1e-9  # largest change by the rounding of means, as a share of a command's range
 ROOM = 0.1  # share by which a period may be longer than desired, since stamps jitter
@@ -72,27 +79,40 @@ def thinned(segment: Segment, longest: float) -> Segment:
     period = float(np.median(np.diff(segment.t)))
     if isinstance(segment, HeldSegment):
         stride = max(1, int(HELD_STEP / period + ROOM))
-        rows = slice(None, None, stride)
         return replace(
             segment,
             **{
-                name: getattr(segment, name)[rows]
+                name: getattr(segment, name)[::stride]
                 for name in ('t', 'target', 'fit', 'pressure', 'position', 'velocity')
             },
         )
     assert isinstance(segment, CommandedSegment)
-    stride = max(1, int(longest / period + ROOM))
-    t = segment.t[::stride]
+    rows = np.arange(0, segment.t.size, max(1, int(longest / period + ROOM)))
+    if isinstance(segment, PressureSegment):
+        rows = _with_jumps(rows, segment.target)
+    t = segment.t[rows]
     drive_t, drive = segment.drive_t, segment.drive
     drive_t, drive = _changed(*_merged(drive_t, drive, _divided(drive_t, drive, t)))
     return replace(
         segment,
         t=t,
-        target=segment.target[::stride],
-        fit=segment.fit[::stride],
+        target=segment.target[rows],
+        fit=segment.fit[rows],
         drive_t=drive_t,
         drive=drive,
     )
+
+
+def _with_jumps(rows: Indices, target: Array) -> Indices:
+    """Return *rows* (m,) with all rows between two of them where *target* (n,) jumps.
+
+    When a pressure without a lag jumps is known to a sampling period, and tells a dead time from a
+    lag. With the thinned samples alone, delays that differ by a stride would fit as well.
+    """
+    jumps = np.abs(np.diff(target[rows])) > LEAP * np.ptp(target)
+    starts, ends = rows[:-1][jumps], rows[1:][jumps]
+    between = [np.arange(start, end) for start, end in zip(starts, ends, strict=True)]
+    return np.unique(np.concatenate([rows, *between]))
 
 
 def _divided(at: Array, u: Array, t: Array) -> Array:

@@ -18,7 +18,6 @@ from pam_ros.identification.search.setting import Model, Setting, rms, simulate_
 from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 STEP = 1e-3  # s, longest step of the simulations of a rig that is not slow
 STEPS = 20  # of a slow rig, in the longest period that its fastest oscillation allows
 
@@ -42,7 +41,7 @@ def fit_finally(search: Search) -> FinalFits:
     """Return the models of a search, fitted completely: by least squares of the free run."""
     setting = search.setting
     parts = tuple(sorted(setting.parts, key=lambda part: not _is_run(part)))
-    runs = [run_of(part.segment, _is_used(part)) for part in parts if _is_run(part)]
+    runs = [run_of(part.segment, part.used) for part in parts if _is_run(part)]
     whole = setting.problem_of(runs, short_step(setting.coarse_period(LONGEST_PERIOD)))
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
     nominal = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
@@ -60,14 +59,8 @@ def short_step(period: float) -> float:
     return max(STEP, period / STEPS)
 
 
-def _is_used(part: Part) -> Mask:
-    """Return a mark (n,) for each sample that is fitted or decides: no judge, no transition."""
-    used: Mask = part.fit | part.choose
-    return used
-
-
 def _is_run(part: Part) -> bool:
-    return int(np.count_nonzero(_is_used(part))) >= FEWEST
+    return int(np.count_nonzero(part.used)) >= FEWEST
 
 
 def _nearer(search: Search, whole: Problem) -> tuple[Problem, Array]:
@@ -143,7 +136,7 @@ def errors_of(runs: Sequence[Array], parts: Sequence[Part]) -> tuple[float, floa
     that judge it.
     """
     left = [run - part.segment.target for run, part in zip(runs, parts, strict=True)]
-    used = np.concatenate([_is_used(part) for part in parts])
+    used = np.concatenate([part.used for part in parts])
     judge = np.concatenate([part.judge for part in parts])
     e = np.concatenate(left)
     return rms(e[used]), rms(e[judge])

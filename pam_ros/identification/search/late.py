@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from pam_ros.identification.data.division import LEFT_OUT
-from pam_ros.identification.data.parts import Part, parts_in_time, run_of
+from pam_ros.identification.data.parts import parts_in_time, run_of
 from pam_ros.identification.fit.extend import memories
 from pam_ros.identification.fit.onset import EARLIER, index_of_onset
 from pam_ros.identification.fit.solve import converge, initial_solution
@@ -64,20 +63,9 @@ class Late:
         if not transition:
             return late
         start = min(self.since.low, self.since.time)
-        without = [without_samples(part, start, end) for part in parts]
+        # Runs are simulated through this time, but not compared.
+        without = [replace(one, division=one.division.without(start, end)) for one in parts]
         return replace(late, parts=without, transition=(start, end))
-
-
-def without_samples(part: Part, start: float, end: float) -> Part:
-    """Return *part* without the samples from *start* to *end* s in any role.
-
-    Runs are simulated through this time, but not compared.
-    """
-    inside = (part.ends > start) & (part.ends <= end)
-    first, last = (int(np.searchsorted(part.ends, time, side='right')) for time in (start, end))
-    ends = np.sort(np.concatenate([part.ends[~inside], [start, end]]))
-    roles = [*part.roles[: first + 1], LEFT_OUT, *part.roles[last:]]
-    return replace(part, ends=ends, roles=np.array(roles))
 
 
 def find_late_effects(late: Late, progress: Progress) -> Search:

@@ -185,7 +185,7 @@ class Setting:
 
         Then only what judges shows how the run continues. False if other recordings judge.
         """
-        is_in_turn = all(part.is_in_turn for part in self.parts)
+        is_in_turn = all(part.division.is_in_turn for part in self.parts)
         is_free = self.parts[0].segment.kind == 'free'
         return is_free and is_in_turn and any(part.judge.any() for part in self.parts)
 

@@ -12,6 +12,7 @@ from pam_ros.identification.data.division import (
     CHOOSE,
     FIT,
     JUDGE,
+    LEFT_OUT,
     contain_all,
     divide,
     divide_in_time,
@@ -90,3 +91,12 @@ def test_a_long_recording_is_judged_by_some_of_its_samples():
     long = Recording('r', t, t, 1e5 * np.interp(t, T, CYCLE), np.zeros(t.size))
     assert not contain_all(divide_in_time(T[0], T[-1], 0.55, 0.75), long)
     assert is_in_turn(long)
+
+
+@pytest.mark.parametrize('start', [3.0, 8.0, 10.25])
+@pytest.mark.parametrize('last', [5.0, 1.0])
+def test_times_without_a_role_are_in_no_part(start, last):
+    whole = divide_in_time(T[0], T[-1], 0.5, 0.75)
+    inside = (start <= T) & (start + last > T)
+    roles = whole.without(start, start + last).at(T)
+    np.testing.assert_array_equal(roles, np.where(inside, LEFT_OUT, whole.at(T)))

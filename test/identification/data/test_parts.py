@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.errors import RecordingError
 from pam_ros.identification.data.division import BLOCKS
-from pam_ros.identification.data.parts import like, parts_in_time, parts_of, run_of
+from pam_ros.identification.data.parts import like, parts_in_time, parts_in_turn, parts_of, run_of
 from support import bench_truth
 
 FREE = bench_truth.free(duration=20.0)
@@ -33,7 +33,7 @@ def test_each_recording_is_divided_by_itself():
     later = replace(FREE, name='b', t=FREE.t + 100.0, command_t=FREE.command_t + 100.0)
     first, second = parts_of([FREE, later], 0.5, 0.75)
     assert counts(first) == counts(second)
-    np.testing.assert_allclose(second.ends, first.ends + 100.0)
+    np.testing.assert_allclose(second.division.ends, first.division.ends + 100.0)
 
 
 def roles(recordings, fit=0.55, choose=0.75):
@@ -95,7 +95,7 @@ def test_gaps_divide_a_recording_but_not_its_parts():
     )
     parts = parts_of([gap], 0.5, 0.75)
     assert len(parts) == 2
-    np.testing.assert_array_equal(parts[0].ends, parts[1].ends)
+    np.testing.assert_array_equal(parts[0].division.ends, parts[1].division.ends)
     assert counts(parts[0])[1:] == [0, 0]
     # A stretch of which nothing is fitted comes last, so that fitted runs keep their numbers.
     last = parts_in_time(gap, 0.2, 0.75)[-1]
@@ -147,6 +147,17 @@ def test_stretches_are_those_before_and_between_what_judges():
     assert all(np.ptp(np.diff(s.t)) < 1e-9 for s in stretches)
 
 
+def test_blocks_in_turn_leave_what_judges_as_it_was():
+    recordings = [FREE, replace(FREE, name='b'), replace(FREE, name='c')]
+    for some in (recordings[:1], recordings):
+        for one, other in zip(
+            parts_of(some, 0.55, 0.75), parts_in_turn(some, 0.55, 0.75), strict=True
+        ):
+            np.testing.assert_array_equal(one.judge, other.judge)
+            assert other.division.is_in_turn
+            assert np.mean(other.fit) == pytest.approx(0.55, abs=0.06)
+
+
 def test_other_signals_of_the_same_recordings_have_the_same_parts():
     """What judges the motion must not be fitted elsewhere, for example in the pressures."""
     slow = np.abs(1.0 - 2.0 * FREE.t / FREE.t[-1])
@@ -156,7 +167,7 @@ def test_other_signals_of_the_same_recordings_have_the_same_parts():
         replace(one, command_t=None, command=None, pressure=np.full(one.t.size, 2e5))
         for one in (FREE, cycle, FREE)
     ]
-    assert [part.is_in_turn for part in parts] == [False, True, False]
+    assert [part.division.is_in_turn for part in parts] == [False, True, False]
     for one, other in zip(parts, like(parts, measured), strict=True):
         assert one.segment.recording == other.segment.recording
         np.testing.assert_array_equal(one.judge, other.judge)

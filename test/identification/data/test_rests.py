@@ -25,6 +25,11 @@ def part(position, stamps=COMMANDS[0], command=COMMANDS[1], t=T):
     return found
 
 
+def ending(whole, ends):
+    """Return the part *whole* with its blocks ending at other times."""
+    return replace(whole, division=whole.division._replace(ends=ends))
+
+
 def following():
     """Return a position that has settled 3 s after each command, to a thousandth of the noise."""
     found = np.zeros_like(T)
@@ -53,7 +58,7 @@ def test_what_is_left_is_every_motion_with_some_rest_on_both_sides():
 @pytest.mark.parametrize('ends', np.random.default_rng(0).uniform(10.0, 58.0, (20, 2)))
 def test_parts_keep_their_samples(ends):
     """Wherever they end: nothing that judges may become part of a fit."""
-    whole = replace(part(following()), ends=np.sort(ends))
+    whole = ending(part(following()), np.sort(ends))
     brief = without_rests(whole, NOISE)
     of = {value: k for k, value in enumerate(whole.segment.target)}
     rows = [of[value] for value in brief.segment.target]
@@ -95,7 +100,7 @@ def test_a_run_at_prescribed_lengths_stays_whole():
 
 
 def test_the_end_of_a_part_within_a_rest_stays_within_it():
-    whole = replace(part(following()), ends=np.array([30.0, np.inf]))
+    whole = ending(part(following()), np.array([30.0, np.inf]))
     brief = without_rests(whole, NOISE)
-    assert 5.0 < brief.ends[0] < 15.0
-    assert brief.ends[1] == np.inf
+    assert 5.0 < brief.division.ends[0] < 15.0
+    assert brief.division.ends[1] == np.inf

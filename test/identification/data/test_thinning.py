@@ -262,3 +262,22 @@ def test_of_two_muscles_a_command_is_kept_if_it_changes_in_one():
     thin = thinned(of_joint, 1e-2)
     np.testing.assert_allclose(thin.drive_t, [0.0, 0.3, 0.6], atol=1e-12)
     np.testing.assert_array_equal(thin.drive, [[1e5, 2e5], [2e5, 2e5], [2e5, 1e5]])
+
+
+def test_where_a_measured_pressure_jumps_all_samples_are_kept():
+    """Two delays that differ by a sampling period are told apart, and it costs few samples."""
+    t = np.arange(20_000) * 1e-3
+    command = 1e5 * (1.0 + (t // 2.003 % 2))
+    for delay in (5e-3, 6e-3):
+        late = 1e5 * (1.0 + ((t - delay) // 2.003 % 2)) + np.random.default_rng(0).normal(
+            0.0, 300.0, t.size
+        )
+        recording = Recording('r', t, t, command, kind='pressure', pressure=late)
+        (segment,) = segments_of([recording])
+        thin = thinned(segment, STEP)
+        assert thin.t.size < 1.05 * t.size / 6
+        jumps = np.flatnonzero(np.abs(np.diff(late)) > 5e4)
+        kept = np.isin(t, thin.t)
+        assert jumps.size >= 9
+        assert kept[jumps].all()
+        assert kept[jumps + 1].all()

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.onset import index_of_onset
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.late import (
@@ -16,7 +15,6 @@ from pam_ros.identification.search.late import (
     explains_transition,
     find_late_effects,
     leaves_only_noise,
-    without_samples,
 )
 from pam_ros.identification.search.moves import with_each
 from pam_ros.identification.search.onset import OnsetEstimate, estimate_onset
@@ -44,19 +42,6 @@ def late_of(pool):
         return Late(setting, since, recording, SHARES, CRITERIA.duration)
 
     return late_of
-
-
-@pytest.mark.parametrize('start', [3.0, 12.0, 20.5])
-@pytest.mark.parametrize('last', [8.0, 2.0])
-def test_samples_of_a_transition_have_no_role(start, last):
-    (part,) = parts_of([bench_truth.free(duration=40.0)], 0.5, 0.75)
-    end = start + last
-    less = without_samples(part, start, end)
-    t = part.segment.t
-    inside = (t >= start) & (t < end)
-    assert inside.any()
-    for role in ('fit', 'choose', 'judge'):
-        np.testing.assert_array_equal(getattr(less, role), getattr(part, role) & ~inside)
 
 
 @pytest.mark.parametrize(('transition', 'is_possible'), [(0.0, True), (8.0, True), (16.0, False)])
