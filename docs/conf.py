@@ -33,6 +33,7 @@ NAVIGATION = {
     'Programs': (
         'docs/simulator',
         'docs/controller',
+        'docs/bench',
         'docs/plot',
         'docs/recordings',
         'docs/identification',

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Control the position of a muscle over topics with a custom controller: an integral law.
 
-Start the simulator, then this program; Ctrl-C ends each. In lockstep the simulator waits for a
-command after each state:
+Start the simulator, then this program. In lockstep it waits for a command after each state:
 
     ros2 run pam_ros pam_sim --ros-args -p muscle:=dmsp_20_400n -p time_mode:=lockstep
     python3 own_controller.py
@@ -18,9 +17,8 @@ from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
-GOAL = 0.06  # m of contraction
-GAIN = 8e6  # Pa per m and s
-PERIOD = 0.002  # s between two states
+GOAL = 0.06  # m of contraction, until a reference arrives
+GAIN, PERIOD = 8e6, 0.002  # Pa per m and s; s between two states
 
 
 class OwnController(Node):
@@ -28,16 +26,21 @@ class OwnController(Node):
 
     def __init__(self):
         super().__init__('own_controller')
-        self.pressure, self.answered = 0.0, None
+        self.goal, self.pressure, self.answered = GOAL, 0.0, None
         self.publisher = self.create_publisher(Float64, 'pressure_command', 10)
+        self.create_subscription(Float64, 'position_reference', self.take_goal, 10)
         self.create_subscription(JointState, 'joint_states', self.control, 10)
+
+    def take_goal(self, message):
+        """Take a reference in m."""
+        self.goal = message.data
 
     def control(self, state):
         """Integrate the error of a state, and publish the pressure in Pa."""
         if state.header.stamp == self.answered:
             return  # in lockstep a state may be published again
         self.answered = state.header.stamp
-        error = GOAL - state.position[0]
+        error = self.goal - state.position[0]
         self.pressure = min(max(self.pressure + GAIN * PERIOD * error, 0.0), 600e3)
         self.publisher.publish(Float64(data=self.pressure))
 

@@ -8,7 +8,7 @@ documentation, and the YAML files.
 
 import math
 import numbers
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import MISSING, dataclass, field, fields, replace
 from typing import Any, NamedTuple
 
 from pam_ros.arguments import refuse
@@ -119,14 +119,18 @@ def parameter_field(default: Any, text: str, unit: str = '', **kwargs: Any) -> A
 
 
 def field_about(default: Any, about: Parameter, *, kw_only: bool = False) -> Any:
-    """Return a dataclass field with *default* that carries its description *about*."""
+    """Return a dataclass field with *default* that carries its description *about*.
+
+    The default MISSING of dataclasses makes a field that must be given.
+    """
     return field(default=default, metadata={_KEY: about}, kw_only=kw_only)
 
 
 def described(cls: type, *, revolute: bool = False) -> dict[str, tuple[type, Any, Parameter]]:
     """Return name -> (type, default, Parameter) of the described fields of a dataclass.
 
-    With *revolute* they are those of a revolute joint.
+    With *revolute* they are those of a revolute joint. A field that must be given has the default
+    MISSING of dataclasses, and the type that is annotated.
     """
     table = {}
     for item in fields(cls):
@@ -135,7 +139,8 @@ def described(cls: type, *, revolute: bool = False) -> dict[str, tuple[type, Any
             if revolute:
                 default = default if about.revolute is None else about.revolute.default
                 about = about.for_revolute(item.name)
-            table[item.name] = (type(item.default), default, about)
+            kind: Any = item.type if item.default is MISSING else type(item.default)
+            table[item.name] = (kind, default, about)
     return table
 
 

@@ -20,6 +20,7 @@ from support.identified import check_identified
 # our environment to set up another one, a copy of the sources to build from.
 DOMAINS = {'domain', 'module_domain'}
 NOT_PURE = {*DOMAINS, 'browser', 'clean_environment', 'sources'}
+pytest_plugins = ('support.browsing',)
 
 
 def pytest_addoption(parser):

@@ -43,13 +43,7 @@ def page(
     """
     curves = curves_of(result, runs)
     scale = scale_for(result.unit, result.stages[-1].fit_error)
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader('pam_ros', 'report'),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    environment = environment_of('report')
     library = result.stages[0].model.library
     environment.filters |= {
         'words': name_in_words,
@@ -77,6 +71,19 @@ def page(
         content=content,
         source=source,
         no_file=no_file,
+    )
+
+
+def environment_of(*folders: str) -> jinja2.Environment:
+    """Return the environment of the templates in these *folders* of the package."""
+    return jinja2.Environment(
+        loader=jinja2.ChoiceLoader(
+            [jinja2.PackageLoader('pam_ros', folder) for folder in folders]
+        ),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
 
 

@@ -108,7 +108,7 @@ def read_any(path: Path, node: str) -> dict[str, Value]:
     tables = [table for name, table in _tables(read_yaml(path)) if _is_for(name, node)]
     values: dict[str, Value] = {}
     for table in tables:
-        for name, read in _flat(table):
+        for name, read in flattened(table):
             is_list = isinstance(read, list) and all(isinstance(text, str) for text in read)
             if not (is_list or isinstance(read, bool | int | float | str)):
                 raise ParameterError(
@@ -162,10 +162,11 @@ def _is_for(name: str, node: str) -> bool:
     return last in (node, '*', '**')
 
 
-def _flat(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
+def flattened(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
+    """Yield the values of nested mappings with their dotted names."""
     if isinstance(table, dict):
         for key, value in table.items():
-            yield from _flat(value, f'{prefix}.{key}' if prefix else str(key))
+            yield from flattened(value, f'{prefix}.{key}' if prefix else str(key))
     elif prefix:
         yield prefix, table
 
@@ -206,6 +207,14 @@ def write(path: Path, values: Mapping[str, Value], about: str = '', node: str = 
         table[last] = _Text(plain) if isinstance(plain, str) else plain
     text = ''.join(f'# {printable(line)}'.rstrip() + '\n' for line in about.splitlines())
     text += yaml.dump({node: {TABLE: nested}}, Dumper=_Dumper, sort_keys=False, allow_unicode=True)
+    write_whole(path, text)
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write *text* as the file *path*, completely or not at all; raises OSError.
+
+    Folders that do not exist are made.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.NamedTemporaryFile(
         'w', dir=path.parent, prefix=f'.{path.name}', delete=False, encoding='utf-8'

@@ -82,6 +82,11 @@ class Plant:
         """Simulated time in s since the start or the last reset."""
         return self._simulation.time
 
+    @property
+    def position(self) -> Array:
+        """The true positions of the joints (joints,) in m or rad, without errors of the sensor."""
+        return self._simulation.position
+
     def change(self, setup: SimulationSetup) -> None:
         """Continue with other parameters."""
         self._simulation.change(setup.joints)

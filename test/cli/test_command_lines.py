@@ -9,7 +9,7 @@ import random
 
 import pytest
 
-from pam_ros.cli import pam_demo, pam_identify
+from pam_ros.cli import pam_bench, pam_demo, pam_identify
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.scene import Scene
 from support.bad_values import TEXTS
@@ -76,6 +76,8 @@ def test_a_node(name, domain, request, tmp_path, monkeypatch):
             ['nowhere.csv', '--params', 'dmsp_20_400n', '--out', 'found', '--set'],
         ),
         (pam_demo.main, []),
+        (pam_bench.main, []),
+        (pam_bench.main, ['pid', '--out', 'bench']),
     ],
 )
 @pytest.mark.parametrize('word', [*USABLE, *WORDS])

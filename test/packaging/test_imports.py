@@ -34,7 +34,7 @@ FLOORS = (
     ('pam_ros.control', 'pam_ros.devices', 'pam_ros.identification'),
     ('pam_ros.settings',),
     ('pam_ros.report', 'pam_ros.simulator'),
-    ('pam_ros.demo', 'pam_ros.health', 'pam_ros.plot'),
+    ('pam_ros.bench', 'pam_ros.demo', 'pam_ros.health', 'pam_ros.plot'),
     ('pam_ros.nodes.common',),
     (
         'pam_ros.nodes.control',
@@ -44,6 +44,7 @@ FLOORS = (
         'pam_ros.nodes.record',
         'pam_ros.nodes.sim',
     ),
+    ('pam_ros.nodes.bench',),
     ('pam_ros.cli',),
     ('pam_ros',),  # the public face names what users need of all rooms
 )

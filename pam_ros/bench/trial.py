@@ -1,0 +1,42 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What happened in one run of a controller in a scenario."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """The states, references and commands of one joint, in all n periods of a run.
+
+    ``t`` (n,) are the times in s from the first state on, at a constant period. ``position`` (n,)
+    are the true positions of the joint, without errors of the sensor, and ``reference`` (n,) the
+    desired ones, in m or rad. ``pressure`` (n, muscles) are the commands in Pa that answered the
+    states, as they were sent. ``limits`` (2, muscles) are p_min and p_max in Pa. ``answer`` (n,)
+    are the wall times in s from sending a state to receiving its command. ``changes`` (m,) are the
+    times in s at which the rig changed, such as its load.
+    """
+
+    t: Array
+    position: Array
+    reference: Array
+    pressure: Array
+    limits: Array
+    answer: Array
+    changes: Array
+    is_revolute: bool = False
+
+    @property
+    def error(self) -> Array:
+        """Reference - position (n,) in m or rad."""
+        return self.reference - self.position
+
+    @property
+    def period(self) -> float:
+        """The period in s."""
+        return float(self.t[1] - self.t[0])

@@ -1,0 +1,134 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_bench``: compare controllers in scenarios, each controller a process over ROS topics.
+
+A CONTROLLER is sliding_mode or pid (pam_control with this law), pam_control:FILE with a parameter
+file, or NAME='COMMAND', which starts a node of your own in any language: it hears joint_states and
+position_reference, and publishes pressure_command (pressure_commands for several muscles). A node
+that follows /clock (use_sim_time) runs in lockstep, as fast as it can compute; another one runs in
+real time, and is marked. In COMMAND, {parameters} stands for a parameter file of what is declared
+of the rig. A launch file is started by NAME='ros2 launch FILE use_sim_time:=true'. Each run has
+a DDS domain of its own: no other robot is commanded.
+
+The folder --out will contain bench.html and bench.json. Exit code 0 if all was run, whatever the
+scores are; 1 if a limit of --limits is not kept, 2 for invalid input.
+"""
+
+import argparse
+import sys
+from importlib import import_module
+from pathlib import Path
+from typing import NoReturn
+
+from pam_ros.cli.help_text import help_text
+from pam_ros.cli.start import NEEDS_ROS
+from pam_ros.errors import PamError, shown
+from pam_ros.processes.ends import ignore_ends
+from pam_ros.processes.interrupts import raise_on_signal
+from pam_ros.processes.outputs import guard_outputs
+from pam_ros.version import VERSION_HELP, VERSION_LINE
+
+BAD_INPUT, INTERRUPTED = 2, 130
+SEEDS = 3
+
+
+class _Parser(argparse.ArgumentParser):
+    """Reports an error of the command line in one sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the sentence and exit."""
+        self.exit(BAD_INPUT, f'{self.prog}: {shown(message)} (see --help)\n')
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    made = _Parser(
+        prog='pam_bench',
+        description=help_text(__doc__),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    made.add_argument('--version', action='version', version=VERSION_LINE, help=VERSION_HELP)
+    made.add_argument('controllers', nargs='*', metavar='CONTROLLER', help='see above')
+    made.add_argument('--out', type=Path, metavar='DIR', help='folder for the results')
+    made.add_argument(
+        '--scenario',
+        nargs='+',
+        action='extend',
+        default=[],
+        metavar='NAME',
+        help='scenarios of this package, or YAML files (default: all of this package)',
+    )
+    made.add_argument('--suite', choices=('muscle', 'joint'), help='only scenarios of this suite')
+    made.add_argument(
+        '--quick', action='store_true', help='a short selection, with one seed unless --seeds'
+    )
+    made.add_argument('--seeds', type=_count, metavar='N', help=f'runs of each (default: {SEEDS})')
+    made.add_argument(
+        '--jobs', type=_count, default=1, metavar='N', help='runs side by side (default: 1)'
+    )
+    made.add_argument(
+        '--domain', type=int, metavar='N', help='DDS domain of a single job (default: a free one)'
+    )
+    made.add_argument(
+        '--limits', type=Path, metavar='FILE', help='YAML file of the highest scores permitted'
+    )
+    made.add_argument(
+        '--compare', type=Path, metavar='JSON', help='bench.json of an earlier bench: what changed'
+    )
+    made.add_argument('--list', action='store_true', help='list scenarios and scores, and end')
+    return made
+
+
+def _count(text: str) -> int:
+    value = int(text) if text.isdigit() else 0
+    if not 1 <= value <= 1000:
+        raise argparse.ArgumentTypeError(f'{text!r} is not allowed: give 1 to 1000')
+    return value
+
+
+def main() -> None:
+    """Run the bench that the command line describes."""
+    guard_outputs()
+    made = parser()
+    given = made.parse_args()
+    raise_on_signal()
+    try:
+        code = _run(made, given)
+    except (PamError, OSError) as error:
+        print(f'pam_bench: {shown(str(error))}', file=sys.stderr)
+        code = BAD_INPUT
+    except KeyboardInterrupt:
+        print('pam_bench: interrupted, nothing was written', file=sys.stderr)
+        code = INTERRUPTED
+    finally:
+        ignore_ends()
+    sys.exit(code)
+
+
+def _run(made: argparse.ArgumentParser, given: argparse.Namespace) -> int:
+    from pam_ros.bench import listing
+    from pam_ros.bench.scenario import chosen
+
+    scenarios = chosen(given.scenario, given.suite, is_quick=given.quick)
+    if given.list:
+        print(listing.text(scenarios))
+        return 0
+    if not given.controllers:
+        made.error('no controller is given, such as sliding_mode or pid')
+    if given.out is None:
+        made.error('--out is missing: give the folder for the results')
+    if given.domain is not None and not (given.jobs == 1 and 0 <= given.domain <= 232):
+        made.error(f'--domain {given.domain} is not allowed: give 0 to 232, and one job')
+    from pam_ros.bench.bench import perform
+
+    try:
+        run = import_module('pam_ros.nodes.bench.run').run
+    except ModuleNotFoundError as error:
+        if error.name != 'rclpy':
+            raise
+        raise PamError(NEEDS_ROS) from None
+    return perform(given, scenarios, given.seeds or (1 if given.quick else SEEDS), run)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,125 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Scenarios are read from YAML, the rig changes when they say, and what is wrong is named."""
+
+import numpy as np
+import pytest
+import yaml
+
+from pam_ros.bench.scenario import RATE, chosen, read_scenario, scenarios_of_package
+from pam_ros.errors import ParameterError
+
+GOOD = {
+    'about': 'A step with a payload.',
+    'duration': 4.0,
+    'declared': {'muscle': 'dmsp_20_400n', 'effects': {'coulomb_friction': {'level': 5.0}}},
+    'undeclared': {'initial': {'pressure': 3e5}, 'effects.payload.mass': 2.0},
+    'reference': {'kind': 'step', 'size': 0.02},
+    'changes': [{'time': 2.0, 'effects.payload.mass': 5.0}],
+}
+
+
+def written(folder, **changes):
+    """Return the path of a scenario, with other values; a value None removes its key."""
+    content = {key: value for key, value in {**GOOD, **changes}.items() if value is not None}
+    path = folder / 'mine.yaml'
+    path.write_text(yaml.safe_dump(content), encoding='utf-8')
+    return path
+
+
+def effects_of(setup):
+    (joint,) = setup.joints
+    return {type(one).name: one for one in (*joint.effects, *joint.actuators[0].effects)}
+
+
+def test_the_simulator_has_both_and_changes_in_time(tmp_path):
+    scenario = read_scenario(written(tmp_path))
+    assert scenario.name == 'mine'
+    assert scenario.declared['effects.coulomb_friction.level'] == 5.0
+    assert not any('payload' in name for name in scenario.declared)
+    (start, first), (later, second) = scenario.setups(7, 'lockstep')
+    assert (start, later) == (0.0, 2.0)
+    assert [effects_of(one)['payload'].mass for one in (first, second)] == [2.0, 5.0]
+    assert {effects_of(one)['coulomb_friction'].level for one in (first, second)} == {5.0}
+    assert first.pressures == (3e5,)
+    assert (first.sensors.seed, first.settings.time_mode) == (7, 'lockstep')
+    assert first.settings.publish_rate == RATE
+    assert scenario.reference.at(np.array([0.0, 3.9])).tolist() == [0.0, 0.02]
+
+
+def test_a_parameter_file_beside_the_scenario_is_found(tmp_path, monkeypatch):
+    rig = {'/**': {'ros__parameters': {'a2': 290.0, 'mass': 12.0}}}
+    (tmp_path / 'identified.yaml').write_text(yaml.safe_dump(rig), encoding='utf-8')
+    path = written(tmp_path, declared={'muscle': 'identified.yaml'})
+    monkeypatch.chdir('/')
+    (_, setup), _ = read_scenario(path).setups(0, 'lockstep')
+    assert setup.joints[0].load.mass == 12.0
+
+
+@pytest.mark.parametrize(
+    ('changes', 'sentence'),
+    [
+        ({'about': None}, 'about is missing'),
+        ({'durration': 1.0}, 'durration is not a key of a scenario: was duration meant?'),
+        ({'duration': 0.5}, 'duration = 0.5 is not allowed: give 1 to 600 s'),
+        ({'score': 'speed'}, "score = 'speed' is not allowed: give one of error_at_rest"),
+        ({'quick': 'yes please'}, "quick = 'yes please' is not allowed: give true or false"),
+        ({'declared': [1]}, 'declared = [1] is not allowed: give parameters of pam_sim'),
+        ({'declared': {'muscle': 'dmsp_21'}}, 'dmsp_21 is neither a parameter file nor'),
+        ({'declared': {'mas': 2.0}}, 'mas is not a parameter of pam_sim: was mass meant?'),
+        ({'declared': {'mass': -2.0}}, 'mass = -2.0 is not allowed'),
+        ({'declared': {'mass': [1.0]}}, 'declared: mass = [1.0] is not a single value'),
+        ({'declared': {'muscles': ['a', 'b']}}, 'declared has 2 joints: a scenario has one'),
+        ({'undeclared': {'sensor.seed': 1}}, 'sensor.seed is set by the bench'),
+        ({'undeclared': {'effects.payloads.mass': 1.0}}, 'payloads'),
+        ({'reference': 'step'}, "reference = 'step' is not allowed: give a mapping with kind"),
+        ({'reference': {'kind': 'jump'}}, "reference: kind = 'jump' is not allowed"),
+        ({'changes': {'time': 1.0}}, 'changes is not a list'),
+        ({'changes': [{'mass': 1.0}]}, 'changes[0].time is missing'),
+        ({'changes': [{'time': 5.0}]}, 'changes[0].time = 5.0 is not allowed: give 0 to 4 s'),
+        ({'changes': [{'time': 2.0}, {'time': 2.0}]}, 'changes[1].time = 2 s is not after'),
+        ({'changes': [{'time': 2.0, 'mass': 'x'}]}, "mass = 'x' is not allowed"),
+    ],
+)
+def test_what_is_wrong_is_named_with_the_file(tmp_path, changes, sentence):
+    path = written(tmp_path, **changes)
+    with pytest.raises(ParameterError) as caught:
+        read_scenario(path)
+    assert str(caught.value).startswith(f'{path}: ')
+    assert sentence in str(caught.value)
+
+
+def test_a_file_that_is_no_mapping(tmp_path):
+    path = tmp_path / 'mine.yaml'
+    path.write_text('- 1\n', encoding='utf-8')
+    with pytest.raises(ParameterError, match='is not a scenario: give a mapping with about'):
+        read_scenario(path)
+
+
+def test_the_scenarios_of_the_package():
+    """Each is valid, tells its score, and a rest to judge comes after 4 s without a motion."""
+    every = scenarios_of_package()
+    assert len({one.name for one in every}) == len(every) >= 45
+    for one in every:
+        first, *_ = one.setups(0, 'lockstep')
+        assert first[1].joints[0].is_revolute is (
+            one.suite == 'joint' and 'parallel' not in one.name
+        )
+        if one.score == 'error_at_rest':
+            end = one.reference.at(np.linspace(one.duration - 4.0, one.duration, 99))
+            assert np.ptp(end) == 0.0
+    quick = [one.name for one in chosen([], None, is_quick=True)]
+    assert 5 <= len(quick) <= 9
+    assert {one.suite for one in chosen([], 'joint', is_quick=False)} == {'joint'}
+
+
+def test_scenarios_are_chosen_by_name_or_path(tmp_path):
+    path = written(tmp_path)
+    assert [one.name for one in chosen(['sine', str(path)], None, is_quick=False)] == [
+        'sine',
+        'mine',
+    ]
+    with pytest.raises(ParameterError, match='scenario mine is given twice'):
+        chosen([str(path), str(path)], None, is_quick=False)
+    with pytest.raises(ParameterError, match='scenario sin does not exist: give the path'):
+        chosen(['sin'], None, is_quick=False)
