@@ -23,6 +23,7 @@ from pam_ros.bench.scores import SCORES
 from pam_ros.bench.table import line, table
 from pam_ros.bench.trial import Trial
 from pam_ros.errors import PamError, shown
+from pam_ros.report.write import check_parent
 from pam_ros.settings.files import write_whole
 
 FELL_SHORT = 1
@@ -44,7 +45,7 @@ def perform(given: argparse.Namespace, scenarios: Sequence[Scenario], seeds: int
     names = [one.name for one in scenarios]
     before = read_results(given.compare) if given.compare else None
     limits = read_limits(given.limits, names, [one.name for one in SCORES]) if given.limits else {}
-    _make_folder(given.out)
+    check_parent(given.out / RESULTS)  # before hours of runs
     source = provenance(shlex.join(sys.orig_argv), {one.name: one.file for one in scenarios})
     jobs = jobs_of(scenarios, controllers, seeds)
     trials: dict[tuple[str, str], Trial] = {}
@@ -109,11 +110,3 @@ def _write(
     except OSError as error:
         raise PamError(f'{folder / PAGE} cannot be written: {error.strerror}') from error
     print(f'\nwrote {folder / RESULTS} and {folder / PAGE}')
-
-
-def _make_folder(folder: Path) -> None:
-    """Create *folder*, so that an error is known before hours of runs."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise PamError(f'{folder} cannot be made: {error.strerror}') from error

@@ -3,6 +3,7 @@
 """All runs of a bench, side by side in processes, each in a DDS domain of its own."""
 
 import multiprocessing
+import os
 import socket
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -82,6 +83,8 @@ def run_all(
 def _begin(domain: int | None) -> None:
     """Prepare a worker: a signal to end must still stop the controller that runs."""
     raise_on_signal()
+    # No rig on another machine is reached: neither from here nor by the controllers.
+    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     _Worker.domain, _Worker.lock = claim_domain(domain)
 
 

@@ -17,13 +17,16 @@ from pam_ros.parameters import Parameter
 from pam_ros.plain_yaml import read_yaml
 from pam_ros.settings.files import find, flattened, share
 from pam_ros.settings.scene import Scene, SimulationSetup
-from pam_ros.settings.tables import Values, checked, similar
+from pam_ros.settings.sim import SimSettings
+from pam_ros.settings.tables import Values, checked, similar, table_of
 
 FOLDER = 'bench'  # of config/
 SUITES = ('muscle', 'joint')
 RATE = 500.0  # Hz of states and commands, unless the scenario gives publish_rate
 # Set by the bench: the time mode follows from the controller, and the seed from the run.
 OF_BENCH = ('time_mode', 'sensor.seed')
+# What a run is recorded with, and where it starts.
+FIXED = {*table_of(SimSettings), *Scene.start}
 # Keys of a scenario, with their types and descriptions.
 KEYS: Mapping[str, tuple[type, Parameter]] = {
     'about': (str, Parameter('what the scenario tests, in a sentence')),
@@ -79,11 +82,12 @@ class Scenario:
         found = [(0.0, _setup(values))]
         for change in self.changes:
             values |= change.values
-            found.append((change.time, _setup(values)))
+            found.append((change.time, _setup(values, change.values)))
         return found
 
 
-def _setup(values: Values) -> SimulationSetup:
+def _setup(values: Values, changed: Values | None = None) -> SimulationSetup:
+    """Return the settings of flat *values*, of which those *changed* must suit a running rig."""
     scene = Scene(values)
     table = scene.table()
     for name in values:
@@ -91,6 +95,9 @@ def _setup(values: Values) -> SimulationSetup:
             alike = similar(name, table)
             hint = f'was {alike} meant?' if alike else 'pam_sim --parameters lists all'
             raise ParameterError(f'{name} is not a parameter of pam_sim: {hint}')
+    for name in changed or {}:
+        if name in FIXED or not table[name][2].live:
+            raise ParameterError(f'changes: {name} cannot change while the rig runs')
     return scene.build(checked(table, values))
 
 

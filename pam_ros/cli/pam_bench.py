@@ -18,9 +18,9 @@ import argparse
 import sys
 from importlib import import_module
 from pathlib import Path
-from typing import NoReturn
 
 from pam_ros.cli.help_text import help_text
+from pam_ros.cli.sentence_parser import BAD_INPUT, SentenceParser
 from pam_ros.cli.start import NEEDS_ROS
 from pam_ros.errors import PamError, shown
 from pam_ros.processes.ends import ignore_ends
@@ -28,21 +28,13 @@ from pam_ros.processes.interrupts import raise_on_signal
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
-BAD_INPUT, INTERRUPTED = 2, 130
+INTERRUPTED = 130
 SEEDS = 3
-
-
-class _Parser(argparse.ArgumentParser):
-    """Reports an error of the command line in one sentence."""
-
-    def error(self, message: str) -> NoReturn:
-        """Print the sentence and exit."""
-        self.exit(BAD_INPUT, f'{self.prog}: {shown(message)} (see --help)\n')
 
 
 def parser() -> argparse.ArgumentParser:
     """Return the parser of the command line."""
-    made = _Parser(
+    made = SentenceParser(
         prog='pam_bench',
         description=help_text(__doc__),
         formatter_class=argparse.RawDescriptionHelpFormatter,

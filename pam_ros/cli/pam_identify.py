@@ -20,28 +20,21 @@ from types import FrameType
 from typing import NoReturn
 
 from pam_ros.cli.help_text import help_text
+from pam_ros.cli.sentence_parser import BAD_INPUT, SentenceParser
 from pam_ros.cli.set_order import values_of_files
 from pam_ros.errors import PamError, printable, shown
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.processes.prompt_end import end_promptly
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
-BAD_INPUT, INTERRUPTED, TERMINATED = 2, 130, 143
+INTERRUPTED, TERMINATED = 130, 143
 STOPPED = 'pam_identify: interrupted, nothing was written'
-
-
-class _Parser(argparse.ArgumentParser):
-    """Reports an error of the command line in one sentence."""
-
-    def error(self, message: str) -> NoReturn:
-        """Print the sentence and exit."""
-        self.exit(BAD_INPUT, f'{self.prog}: {shown(message)} (see --help)\n')
 
 
 def parser(*, is_part: bool = False) -> argparse.ArgumentParser:
     """Return the parser of the command line, or of its first part, which may lack anything."""
     some = '*' if is_part else '+'
-    made = _Parser(
+    made = SentenceParser(
         prog='pam_identify',
         description=help_text(__doc__),
         formatter_class=argparse.RawDescriptionHelpFormatter,

@@ -79,6 +79,12 @@ def test_a_parameter_file_beside_the_scenario_is_found(tmp_path, monkeypatch):
         ({'changes': [{'time': 5.0}]}, 'changes[0].time = 5.0 is not allowed: give 0 to 4 s'),
         ({'changes': [{'time': 2.0}, {'time': 2.0}]}, 'changes[1].time = 2 s is not after'),
         ({'changes': [{'time': 2.0, 'mass': 'x'}]}, "mass = 'x' is not allowed"),
+        ({'changes': [{'time': 2.0, 'muscle': 'dmsp_10'}]}, 'changes: muscle cannot change'),
+        ({'changes': [{'time': 2.0, 'publish_rate': 100.0}]}, 'changes: publish_rate cannot'),
+        (
+            {'changes': [{'time': 2.0, 'initial.pressure': 1e5}]},
+            'changes: initial.pressure cannot',
+        ),
     ],
 )
 def test_what_is_wrong_is_named_with_the_file(tmp_path, changes, sentence):

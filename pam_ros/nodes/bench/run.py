@@ -3,7 +3,6 @@
 """One run of a controller, as a process, in a scenario, over topics of a DDS domain of its own."""
 
 import gc
-import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -23,6 +22,7 @@ from pam_ros.bench.scores import scores_of
 from pam_ros.bench.trial import Trial
 from pam_ros.nodes.bench.rig import BenchRig
 from pam_ros.nodes.common.rclpy_internals import EventsExecutor
+from pam_ros.nodes.common.spin import LONGEST_WAIT, tick_if_due
 from pam_ros.processes.interrupts import held_back
 
 START = 60.0  # s within which a controller must subscribe to the states
@@ -35,7 +35,6 @@ SURPLUS = 10
 FIRST = 20  # states within which a controller stops that waits for time to pass
 STUCK = 3.0  # s without a command after which such a controller is run in real time
 LOOK = 0.2  # s between two looks at the controller
-LONGEST_WAIT = 0.1  # s in the executor
 
 
 class _EarlyEndError(Exception):
@@ -91,10 +90,6 @@ def run(scenario: Scenario, controller: Controller, seed: int, domain: int) -> F
 def _trial(
     scenario: Scenario, controller: Controller, seed: int, domain: int, time_mode: str
 ) -> Trial:
-    environment = {
-        'ROS_DOMAIN_ID': str(domain),
-        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-    }
     with (
         _parameter_file(scenario) as file,
         _context(domain) as context,
@@ -102,7 +97,7 @@ def _trial(
     ):
         rate = rig.setup.settings.publish_rate
         command = controller.command_line(file, rate, is_simulated=time_mode != 'real_time')
-        with ControllerProcess(command, environment) as process:
+        with ControllerProcess(command, {'ROS_DOMAIN_ID': str(domain)}) as process:
             _drive(rig, process, context)
             return rig.trial()
 
@@ -123,7 +118,6 @@ def _parameter_file(scenario: Scenario) -> Iterator[Path]:
 
 @contextmanager
 def _context(domain: int) -> Iterator[Context]:
-    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     context = Context()
     rclpy.init(context=context, domain_id=domain)
     try:
@@ -153,12 +147,7 @@ def _drive(rig: BenchRig, process: ControllerProcess, context: Context) -> None:
         ticker = rig.ticker
         ticker.start(ticker.rate, monotonic_ns())
         while not rig.is_done or watch.is_counting():
-            now = monotonic_ns()
-            wait = ticker.remaining(now)
-            if wait <= 0.0:
-                ticker.tick(now)
-                rig.tick()
-                wait = max(ticker.remaining(monotonic_ns()), 0.0)
+            wait = tick_if_due(ticker, rig.tick)
             with held_back():
                 executor.spin_once(timeout_sec=min(wait, LONGEST_WAIT))
             watch.look()

@@ -221,14 +221,19 @@ def spin(node: TickingNode, executor: Executor, stop: StopRequest) -> None:
     """Call the node's tick, and the executor in between, until *stop* or the node's end."""
     ticker = node.ticker
     while not stop.is_made and node.exit_code is None:
-        now = monotonic_ns()
-        wait = ticker.remaining(now)
-        if wait <= 0.0:
-            ticker.tick(now)
-            node.tick()
-            # Commands and services are served even if ticks are late.
-            wait = max(ticker.remaining(monotonic_ns()), 0.0)
-        executor.spin_once(timeout_sec=min(wait, LONGEST_WAIT))
+        executor.spin_once(timeout_sec=min(tick_if_due(ticker, node.tick), LONGEST_WAIT))
+
+
+def tick_if_due(ticker: Ticker, tick: Callable[[], None]) -> float:
+    """Call *tick* if it is due, and return the time in s until the next one, at least 0."""
+    now = monotonic_ns()
+    wait = ticker.remaining(now)
+    if wait > 0.0:
+        return wait
+    ticker.tick(now)
+    tick()
+    # Commands and services are served even if ticks are late.
+    return max(ticker.remaining(monotonic_ns()), 0.0)
 
 
 def sentence(error: Exception) -> str:
