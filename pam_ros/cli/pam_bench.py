@@ -10,14 +10,18 @@ real time, and is marked. In COMMAND, {parameters} stands for a parameter file o
 of the rig. A launch file is started by NAME='ros2 launch FILE use_sim_time:=true'. Each run has
 a DDS domain of its own: no other robot is commanded.
 
-The folder --out will contain bench.html and bench.json. Exit code 0 if all was run, whatever the
-scores are; 1 if a limit of --limits is not kept, 2 for invalid input.
+The folder --out will contain bench.html and bench.json, and with --draw the folder scenarios.
+Exit code 0 if all was run, whatever the scores are; 1 if a limit of --limits is not kept, 2 for
+invalid input.
 """
 
 import argparse
 import sys
 from importlib import import_module
 from pathlib import Path
+from secrets import randbelow
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 from pam_ros.cli.help_text import help_text
 from pam_ros.cli.sentence_parser import BAD_INPUT, SentenceParser
@@ -28,8 +32,12 @@ from pam_ros.processes.interrupts import raise_on_signal
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
+if TYPE_CHECKING:
+    from pam_ros.bench.scenario import Scenario
+
 INTERRUPTED = 130
 SEEDS = 3
+LARGEST_SEED = 999_999
 
 
 def parser() -> argparse.ArgumentParser:
@@ -51,6 +59,15 @@ def parser() -> argparse.ArgumentParser:
         help='scenarios of this package, or YAML files (default: all of this package)',
     )
     made.add_argument('--suite', choices=('muscle', 'joint'), help='only scenarios of this suite')
+    made.add_argument(
+        '--draw',
+        type=_count,
+        metavar='N',
+        help='N scenarios drawn at random, kept in DIR/scenarios',
+    )
+    made.add_argument(
+        '--seed', type=_seed, metavar='S', help='draw those of this seed (default: a new one)'
+    )
     made.add_argument(
         '--quick', action='store_true', help='a short selection, with one seed unless --seeds'
     )
@@ -78,6 +95,13 @@ def _count(text: str) -> int:
     return value
 
 
+def _seed(text: str) -> int:
+    value = int(text) if text.isdecimal() else -1
+    if not 0 <= value <= LARGEST_SEED:
+        raise argparse.ArgumentTypeError(f'{text!r} is not allowed: give 0 to {LARGEST_SEED}')
+    return value
+
+
 def main() -> None:
     """Run the bench that the command line describes."""
     guard_outputs()
@@ -90,7 +114,8 @@ def main() -> None:
         print(f'pam_bench: {shown(str(error))}', file=sys.stderr)
         code = BAD_INPUT
     except KeyboardInterrupt:
-        print('pam_bench: interrupted, nothing was written', file=sys.stderr)
+        what = 'nothing' if given.draw is None else 'nothing but the drawn scenarios'
+        print(f'pam_bench: interrupted, {what} was written', file=sys.stderr)
         code = INTERRUPTED
     finally:
         ignore_ends()
@@ -99,11 +124,15 @@ def main() -> None:
 
 def _run(made: argparse.ArgumentParser, given: argparse.Namespace) -> int:
     from pam_ros.bench import listing
-    from pam_ros.bench.scenario import chosen
+    from pam_ros.bench.controllers import controllers_of
 
-    scenarios = chosen(given.scenario, given.suite, is_quick=given.quick)
+    if given.draw is not None and given.scenario:
+        made.error('--draw and --scenario exclude each other: give one of them')
+    if given.seed is not None and given.draw is None:
+        made.error(f'--seed {given.seed} is the seed of --draw: give --draw N, or --seeds N')
     if given.list:
-        print(listing.text(scenarios))
+        with TemporaryDirectory() as folder:
+            print(listing.text(_scenarios(given, Path(folder))))
         return 0
     if not given.controllers:
         made.error('no controller is given, such as sliding_mode or pid')
@@ -119,7 +148,21 @@ def _run(made: argparse.ArgumentParser, given: argparse.Namespace) -> int:
         if error.name != 'rclpy':
             raise
         raise PamError(NEEDS_ROS) from None
+    controllers_of(given.controllers)  # what is wrong is said before scenarios are written
+    scenarios = _scenarios(given, given.out / 'scenarios')
     return perform(given, scenarios, given.seeds or (1 if given.quick else SEEDS), run)
+
+
+def _scenarios(given: argparse.Namespace, folder: Path) -> 'list[Scenario]':
+    """Return the scenarios of the command line; those that are drawn are written to *folder*."""
+    if given.draw is not None:
+        from pam_ros.bench.draw.draw import drawn_scenarios
+
+        seed = randbelow(LARGEST_SEED + 1) if given.seed is None else given.seed
+        return drawn_scenarios(folder, given.draw, seed, given.suite)
+    from pam_ros.bench.scenario import chosen
+
+    return chosen(given.scenario, given.suite, is_quick=given.quick)
 
 
 if __name__ == '__main__':

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """``pam_bench`` as a program: its table, its file, its exit codes, side by side, interrupted."""
 
+import hashlib
 import json
 import os
 import signal
@@ -86,6 +87,24 @@ def test_a_bench_with_limits_is_the_same_side_by_side(tmp_path):
     assert [name for name, *_ in one] == ['sliding_mode', 'good', 'dies']
 
 
+def test_drawn_scenarios_are_files_and_are_run(tmp_path):
+    out = tmp_path / 'found'
+    given = ['sliding_mode', '--draw', '1', '--seed', '3', '--quick', '--out', str(out)]
+    program = bench(*given)
+    output, _ = program.communicate(timeout=300)
+    assert program.returncode == 0, output
+    found = json.loads((out / 'bench.json').read_text(encoding='utf-8'))
+    (outcome,) = found['outcomes']
+    assert (outcome['scenario'], outcome['status']) == ('draw_3_001', 'completed')
+    data = (out / 'scenarios' / 'draw_3_001.yaml').read_bytes()
+    assert found['provenance']['files'] == {'draw_3_001': hashlib.sha256(data).hexdigest()}
+    again = bench('--draw', '1', '--seed', '3', '--list', cwd=tmp_path)
+    output, _ = again.communicate(timeout=60)
+    assert again.returncode == 0
+    assert 'draw_3_001' in output
+    assert [path.name for path in tmp_path.iterdir()] == ['found']
+
+
 def test_an_interrupted_bench_ends_its_controller_and_writes_nothing(tmp_path):
     scenario = written(tmp_path, 'long.yaml', {**SCENARIO, 'duration': 600.0})
     given = [odd('good') + f' -r __node:=n{os.getpid()}', '--scenario', scenario]
@@ -129,6 +148,14 @@ def test_an_interrupted_bench_ends_its_controller_and_writes_nothing(tmp_path):
             '/proc/x/bench.json cannot be made: no folder can be made in /proc',
         ),
         (['pid', '--out', 'x', '--limits', 'no.yaml'], 'no.yaml cannot be read'),
+        (['pid', '--out', 'x', '--draw', '0'], "--draw: '0' is not allowed: give 1 to 1000"),
+        (['pid', '--out', 'x', '--draw', '1', '--seed', '-1'], "--seed: '-1' is not allowed"),
+        (['pid', '--out', 'x', '--seed', '4'], '--seed 4 is the seed of --draw: give --draw N'),
+        (
+            ['pid', '--out', 'x', '--draw', '1', '--scenario', 'sine'],
+            '--draw and --scenario exclude each other',
+        ),
+        (['pdi', '--out', 'x', '--draw', '1', '--seed', '3'], "'pdi' is not a controller"),
     ],
 )
 def test_invalid_input_is_a_sentence(tmp_path, arguments, sentence):
