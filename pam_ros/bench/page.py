@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from pam_ros.bench.compare import Comparison, compared, standings
 from pam_ros.bench.outcome import Results, ScoreAbout
-from pam_ros.bench.plots import MUSCLES, TrialPicture, pictures
+from pam_ros.bench.plots import MUSCLES, OUTAGE, TrialPicture, pictures
 from pam_ros.bench.table import criterion, scale_in
 from pam_ros.bench.trial import Trial
 from pam_ros.errors import shown
@@ -52,6 +52,7 @@ class ScenarioPart:
     pictures: list[TrialPicture]
     muscles: int
     has_changes: bool
+    has_outages: bool
 
 
 def page(results: Results, programs: Mapping[str, str], trials: Trials) -> str:
@@ -77,6 +78,7 @@ def page(results: Results, programs: Mapping[str, str], trials: Trials) -> str:
         source=results.provenance,
         style=style,
         muscle_colours=MUSCLES,
+        outage_colour=OUTAGE,
     )
 
 
@@ -127,6 +129,7 @@ def _part(results: Results, name: str, mark: str, trials: Trials) -> ScenarioPar
         pictures(mark, own),
         0 if first is None else first.pressure.shape[1],
         first is not None and first.changes.size > 0,
+        first is not None and first.outages.size > 0,
     )
 
 

@@ -20,6 +20,7 @@ COLUMNS = 2 * style.NARROW  # points in which a curve is thinned
 # Of the errors, the largest shares that may leave the axis: a jump of the reference is an error.
 MOST_ERRORS = 0.97
 ROOM = 1.15  # height of an axis above what it must show
+OUTAGE = '#e6d3d9'  # the background of outages
 MUSCLES = (style.COLOURS[2], style.COLOURS[0], style.COLOURS[1], style.NOISE)
 
 
@@ -61,6 +62,10 @@ def _draw(axes: list[Axes], trial: Trial, scale: Scale) -> None:
     _line(error, trial.t, scale.factor * trial.error, MUSCLES[0])
     for k, column in enumerate(trial.pressure.T):
         _line(pressure, trial.t, KILO * column, MUSCLES[k % len(MUSCLES)])
+    end = float(trial.t[-1])
+    for begin, back in trial.outages.tolist():
+        for ax in axes:
+            ax.axvspan(begin, min(back, end), color=OUTAGE, linewidth=0.0, zorder=0)
     for change in trial.changes.tolist():
         for ax in axes:
             ax.axvline(change, color=style.SINCE, linewidth=1.0, linestyle=(0, (4, 2)))
@@ -68,7 +73,7 @@ def _draw(axes: list[Axes], trial: Trial, scale: Scale) -> None:
     error.set_title(f'error [{scale.unit}]')
     pressure.set_title('commanded pressure [kPa]')
     pressure.set_xlabel('time [s]')
-    pressure.set_xlim(0.0, float(trial.t[-1]))
+    pressure.set_xlim(0.0, end)
 
 
 def _line(ax: Axes, t: Array, values: Array, colour: str, width: float = 1.2) -> None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from pam_ros.bench.faults import NO_FAULTS, MessageFaults, Outage, messages_of, outages_of
 from pam_ros.bench.references import Reference, reference_of
 from pam_ros.bench.scores import SCORES
 from pam_ros.errors import PamError, ParameterError
@@ -35,7 +36,7 @@ KEYS: Mapping[str, tuple[type, Parameter]] = {
     'score': (str, Parameter('the score that decides', choices=tuple(s.name for s in SCORES))),
     'duration': (float, Parameter('length of the run', 's', low=1.0, high=600.0)),
 }
-TABLES = ('declared', 'undeclared', 'reference', 'changes')
+TABLES = ('declared', 'undeclared', 'reference', 'changes', 'messages', 'outages')
 NEEDED = ('about', 'duration', 'declared', 'reference')
 
 
@@ -49,11 +50,12 @@ class Change:
 
 @dataclass(frozen=True, eq=False)
 class Scenario:
-    """A rig with what is declared of it and what is not, a reference, and changes of the rig.
+    """A rig with what is declared of it and what is not, a reference, changes and faults.
 
     ``declared`` and ``undeclared`` are parameters of ``pam_sim``, by dotted names: the simulator
     has both, the controller is given the declared ones. ``score`` is the name of the score that
-    decides, ``duration`` is in s, and ``file`` is where the scenario was read.
+    decides, ``duration`` is in s, and ``file`` is where the scenario was read. ``messages`` are
+    the faults of the messages between both, and ``outages`` of the rig are in ascending order.
     """
 
     name: str
@@ -67,6 +69,8 @@ class Scenario:
     suite: str = 'muscle'
     is_quick: bool = False
     file: Path = Path()
+    messages: MessageFaults = NO_FAULTS
+    outages: tuple[Outage, ...] = ()
 
     def setups(self, seed: int, time_mode: str) -> list[tuple[float, SimulationSetup]]:
         """Return the settings of the simulator, each with the time in s from which they hold.
@@ -149,6 +153,8 @@ def _scenario(path: Path, content: Mapping[Any, Any]) -> Scenario:
         plain.get('suite', Scenario.suite),
         plain.get('quick', Scenario.is_quick),
         path,
+        messages_of(content.get('messages', {})),
+        outages_of(content.get('outages', []), plain['duration']),
     )
     for _, setup in scenario.setups(0, 'lockstep'):
         if len(setup.joints) > 1:

@@ -104,7 +104,7 @@ def _settling(trial: Trial, part: Part, band: float) -> float:
     'error_at_rest',
     unit='position',
     text='Largest absolute error in the last 2 s. It needs a reference that is constant and a rig '
-    'that does not change in the last 4 s.',
+    'that does not change and has no outage in the last 4 s.',
 )
 def _error_at_rest(trial: Trial) -> float | None:
     part = rest(trial)
@@ -115,8 +115,8 @@ def _error_at_rest(trial: Trial) -> float | None:
     'rms_error',
     unit='position',
     text='Root of the mean square of the error, from the first motion of the reference or the '
-    'first change of the rig on, whichever is earlier; from 1 s after the start if there is '
-    'neither.',
+    'first change or outage of the rig on, whichever is earlier; from 1 s after the start if '
+    'there is none. The time of outages does not count, the time from the return on does.',
 )
 def _rms_error(trial: Trial) -> float | None:
     part = motion(trial)
@@ -141,9 +141,9 @@ def _worst_error(trial: Trial) -> float | None:
     'settling_time',
     unit='s',
     text='Time after a jump of the reference after which the absolute error stays within 2 % of '
-    'the jump until the next jump, the next change of the rig or the end; the longest of all '
-    'jumps. If it never stays there, it is the whole time until then. It needs a reference that '
-    'is constant but for jumps.',
+    'the jump until the next jump, the next change or outage of the rig or the end; the longest '
+    'of all jumps. If it never stays there, it is the whole time until then. It needs a reference '
+    'that is constant but for jumps. Jumps during an outage do not count.',
     source='Ogata, Modern Control Engineering, 5th edition, 2010, section 5-3',
 )
 def _settling_time(trial: Trial) -> float | None:
@@ -155,9 +155,9 @@ def _settling_time(trial: Trial) -> float | None:
     'overshoot',
     unit='percent',
     text='How far the position goes beyond the new reference, in the direction of the jump and '
-    'in percent of the jump, until the next jump, the next change of the rig or the end; the '
-    'largest of all jumps, 0 if it does not go beyond. It needs a reference that is constant but '
-    'for jumps.',
+    'in percent of the jump, until the next jump, the next change or outage of the rig or the '
+    'end; the largest of all jumps, 0 if it does not go beyond. It needs a reference that is '
+    'constant but for jumps. Jumps during an outage do not count.',
     source='Ogata, Modern Control Engineering, 5th edition, 2010, section 5-3',
 )
 def _overshoot(trial: Trial) -> float | None:
@@ -168,16 +168,17 @@ def _overshoot(trial: Trial) -> float | None:
 @score(
     'recovery',
     unit='s',
-    text='Time after a change of the rig after which the absolute error stays within a band '
-    'until the next change, the next motion of the reference or the end; the longest of all '
-    'changes. The band is 5 times the root mean square error of the last second before the '
-    'change, and at least 0.1 mm or 1 mrad. If the error never stays there, it is the whole time '
-    'until then. Changes within 1 s of a motion of the reference do not count.',
+    text='Time after a change of the rig, or after its return from an outage, after which the '
+    'absolute error stays within a band until the next change or outage, the next motion of the '
+    'reference or the end; the longest of all. The band is 5 times the root mean square error of '
+    'the last second before the change or the outage, and at least 0.1 mm or 1 mrad. If the error '
+    'never stays there, it is the whole time until then. Changes and outages within 1 s of a '
+    'motion of the reference do not count.',
 )
 def _recovery(trial: Trial) -> float | None:
     times = []
     for part in changes(trial):
-        before = trial.error[max(part.begin - periods(trial, NEAR), 0) : part.begin]
+        before = trial.error[max(part.before - periods(trial, NEAR), 0) : part.before]
         usual = BAND_RATIO * _rms(before) if before.size else 0.0
         times.append(_settling(trial, part, max(BAND[trial.is_revolute], usual)))
     return max(times, default=None)
@@ -190,8 +191,9 @@ def _recovery(trial: Trial) -> float | None:
     'pressure_variation',
     unit='kPa/s',
     text='Sum of the absolute changes of the commanded pressure from period to period, divided by '
-    'the time, mean of the muscles, in the time of rms_error; the change at its start counts. A '
-    'command that is not finite counts as the one before it.',
+    'the time, mean of the muscles, in the time of rms_error; the changes at its start and from '
+    'the last command before an outage to the first one after it count. A command that is not '
+    'finite counts as the one before it.',
     source='Total variation of the input: Skogestad, Journal of Process Control 13, 2003, 291-309',
 )
 def _pressure_variation(trial: Trial) -> float | None:
@@ -219,8 +221,9 @@ def _chatter(trial: Trial) -> float | None:
 @score(
     'limit_violations',
     unit='percent',
-    text='Share of the commands of all muscles that are below p_min, above p_max or not finite. '
-    'Up to 0.1 Pa beyond a limit counts as rounding to single precision.',
+    text='Share of the commands of all muscles that are below p_min, above p_max or not finite, '
+    'also of those during outages. Up to 0.1 Pa beyond a limit counts as rounding to single '
+    'precision.',
 )
 def _limit_violations(trial: Trial) -> float:
     low, high = trial.limits
@@ -256,8 +259,8 @@ def _filling(trial: Trial) -> float | None:
     text=f'Median time from sending a state to receiving its command. {LOAD}',
     is_of_machine=True,
 )
-def _computing_time(trial: Trial) -> float:
-    return MILLI * float(np.median(trial.answer))
+def _computing_time(trial: Trial) -> float | None:
+    return _answer_time(trial, 50.0)
 
 
 @score(
@@ -266,5 +269,11 @@ def _computing_time(trial: Trial) -> float:
     text=f'99th percentile of the time from sending a state to receiving its command. {LOAD}',
     is_of_machine=True,
 )
-def _computing_time_worst(trial: Trial) -> float:
-    return MILLI * float(np.percentile(trial.answer, 99.0))
+def _computing_time_worst(trial: Trial) -> float | None:
+    return _answer_time(trial, 99.0)
+
+
+def _answer_time(trial: Trial, percent: float) -> float | None:
+    """Return a percentile of the times in ms of the states that were answered."""
+    answered = trial.answer[np.isfinite(trial.answer)]
+    return MILLI * float(np.percentile(answered, percent)) if answered.size else None

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What happened in one run of a controller in a scenario."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,10 @@ class Trial:
     are the true positions of the joint, without errors of the sensor, and ``reference`` (n,) the
     desired ones, in m or rad. ``pressure`` (n, muscles) are the commands in Pa that answered the
     states, as they were sent. ``limits`` (2, muscles) are p_min and p_max in Pa. ``answer`` (n,)
-    are the wall times in s from sending a state to receiving its command. ``changes`` (m,) are the
-    times in s at which the rig changed, such as its load.
+    are the wall times in s from sending a state to receiving its command, NaN for a state that was
+    not sent or not answered. ``changes`` (m,) are the times in s at which the rig changed, such as
+    its load. ``outages`` (k, 2) are the times in s of the begin and the end of each outage of the
+    rig, in which it sent no states and took no commands; one without an end is infinite there.
     """
 
     t: Array
@@ -30,6 +32,7 @@ class Trial:
     answer: Array
     changes: Array
     is_revolute: bool = False
+    outages: Array = field(default_factory=lambda: np.empty((0, 2)))
 
     @property
     def error(self) -> Array:

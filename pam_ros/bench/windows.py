@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parts of a trial that scores are about: its motion, its rest, its jumps and its changes.
 
-Lengths are counted in periods, so that the rounding of the times makes no difference.
+Lengths are counted in periods, so that the rounding of the times makes no difference. The time of
+an outage, in which no controller can act, belongs to none of them.
 """
 
 from typing import NamedTuple
@@ -23,13 +24,16 @@ NEAR = 1.0  # s around a change in which the reference must be constant
 class Part(NamedTuple):
     """Samples from ``begin`` on, up to but without ``end``, after an event at time ``time`` in s.
 
-    ``jump`` is the signed size of the jump of the reference at ``begin``, 0 at a change.
+    ``jump`` is the signed size of the jump of the reference at ``begin``, 0 at a change. What is
+    before the event ends without the sample ``before``: the begin of an outage from which the rig
+    returns at ``begin``.
     """
 
     begin: int
     end: int
     time: float
     jump: float = 0.0
+    before: int = 0
 
     @property
     def samples(self) -> slice:
@@ -42,19 +46,30 @@ def periods(trial: Trial, seconds: float) -> int:
     return round(seconds / trial.period)
 
 
-def motion(trial: Trial) -> slice | None:
-    """Return the samples from the first motion of the reference or change of the rig on.
+def can_act(trial: Trial) -> NDArray[np.bool_]:
+    """Return whether a controller can act at each sample (n,): not during an outage."""
+    t = trial.t + ROUNDING
+    acts = np.ones(t.size, dtype=bool)
+    for begin, end in trial.outages:
+        acts &= (t < begin) | (t >= end)
+    return acts
 
-    If there is neither, they begin 1 s after the start; None if the trial ends before.
+
+def motion(trial: Trial) -> NDArray[np.int64] | None:
+    """Return the samples from the first motion of the reference or event of the rig on.
+
+    If there is neither, they begin 1 s after the start. Those of outages are left out; None if
+    none remains.
     """
     moved = np.flatnonzero(np.abs(trial.reference - trial.reference[0]) > STILL)
-    begins = [*moved[:1], *change_samples(trial)[:1]] or [periods(trial, LATEST)]
-    begin = int(min(begins))
-    return slice(begin, trial.t.size) if begin < trial.t.size else None
+    begins = [*moved[:1], *event_samples(trial)[:1]] or [periods(trial, LATEST)]
+    samples = np.flatnonzero(can_act(trial))
+    samples = samples[samples >= min(begins)]
+    return samples if samples.size else None
 
 
 def commands(trial: Trial) -> tuple[NDArray[np.float64], float] | None:
-    """Return the commands from the sample before :func:`motion` on, and their duration in s.
+    """Return the commands of :func:`motion` and the one before them, and their duration in s.
 
     A command that is not finite is replaced by the last one before it that is finite, as a valve
     keeps its pressure; None if a muscle has no finite command, or if there is no duration.
@@ -66,10 +81,10 @@ def commands(trial: Trial) -> tuple[NDArray[np.float64], float] | None:
     rows = np.arange(trial.t.size)[:, None]
     last = np.maximum.accumulate(np.where(is_finite, rows, -1), axis=0)
     kept = np.where(last < 0, is_finite.argmax(axis=0), last)  # before the first one: the first
-    begin = max(part.start - 1, 0)
-    duration = float(trial.t[-1] - trial.t[begin])
     filled = np.take_along_axis(trial.pressure, kept, axis=0)
-    return (filled[begin:], duration) if duration > 0.0 else None
+    first = np.flatnonzero(can_act(trial)[: part[0]])[-1:]
+    samples = np.concatenate([first, part])
+    return (filled[samples], (samples.size - 1) * trial.period) if samples.size > 1 else None
 
 
 def rest(trial: Trial) -> slice | None:
@@ -77,28 +92,37 @@ def rest(trial: Trial) -> slice | None:
     begin = trial.t.size - 1 - periods(trial, REST)
     if begin < 0 or not _is_still(trial.reference[begin:]):
         return None
-    if any(sample > begin for sample in change_samples(trial)):
+    if any(sample > begin for sample in event_samples(trial)) or not can_act(trial)[begin:].all():
         return None
     return slice(trial.t.size - 1 - periods(trial, JUDGED), trial.t.size)
 
 
-def change_samples(trial: Trial) -> list[int]:
-    """Return the first sample at or after each change of the rig, ascending, each once."""
-    samples = np.unique(np.searchsorted(trial.t + ROUNDING, trial.changes))
-    return [int(k) for k in samples if k < trial.t.size]
+def _samples_at(trial: Trial, times: NDArray[np.float64]) -> list[int]:
+    """Return the first sample at or after each of *times* in s, n for one after the end."""
+    return [int(k) for k in np.searchsorted(trial.t + ROUNDING, times)]
+
+
+def event_samples(trial: Trial) -> list[int]:
+    """Return the first sample at or after each event of the rig, ascending, each once.
+
+    These are its changes, and the begin and the end of its outages.
+    """
+    times = np.concatenate([trial.changes, trial.outages.ravel()])
+    return sorted({k for k in _samples_at(trial, times) if k < trial.t.size})
 
 
 def jumps(trial: Trial) -> list[Part]:
-    """Return the part after each jump, up to the next jump or change, or to the end.
+    """Return the part after each jump, up to the next jump or event of the rig, or to the end.
 
-    Empty unless the reference is constant but for jumps from one sample to the next.
+    Empty unless the reference is constant but for jumps from one sample to the next. A jump during
+    an outage is left out.
     """
     begins = np.flatnonzero(np.abs(np.diff(trial.reference)) > STILL) + 1
     if np.any(np.diff(begins) < 2) or not all(
         _is_still(level) for level in np.split(trial.reference, begins)
     ):
         return []
-    events = [*begins, *change_samples(trial), trial.t.size]
+    events, acts = [*begins, *event_samples(trial), trial.t.size], can_act(trial)
     return [
         Part(
             int(k),
@@ -107,24 +131,33 @@ def jumps(trial: Trial) -> list[Part]:
             float(trial.reference[k] - trial.reference[k - 1]),
         )
         for k in begins
+        if acts[k]
     ]
 
 
 def changes(trial: Trial) -> list[Part]:
-    """Return the part after each change, up to the next change or motion, or to the end.
+    """Return the part after each change of the rig and each return from an outage.
 
-    A change while the reference moves, or within 1 s of its motion, is left out: the errors before
-    and after it are those of the motion as well.
+    It lasts up to the next event of the rig or motion of the reference, or to the end. One while
+    the reference moves, or within 1 s of its motion, is left out: the errors before and after it
+    are those of the motion as well. A change during an outage belongs to the return.
     """
-    samples = change_samples(trial)
-    near = periods(trial, NEAR)
+    acts, near = can_act(trial), periods(trial, NEAR)
+    befores = {k: k for k in _samples_at(trial, trial.changes)}
+    befores |= {
+        end: begin
+        for begin, end in zip(*(_samples_at(trial, ends) for ends in trial.outages.T), strict=True)
+    }
+    events = [*event_samples(trial), trial.t.size]
     found = []
-    for k, following in zip(samples, [*samples, trial.t.size][1:], strict=True):
-        level = trial.reference[max(k - near, 0) : k + near + 1]
-        if _is_still(level):
+    for k, before in sorted(befores.items()):
+        if k == trial.t.size or not acts[k]:
+            continue
+        if _is_still(trial.reference[max(before - near, 0) : k + near + 1]):
+            following = min(event for event in events if event > k)
             moved = np.abs(trial.reference[k:following] - trial.reference[k]) > STILL
             end = k + int(moved.argmax()) if moved.any() else following
-            found.append(Part(k, end, float(trial.t[k])))
+            found.append(Part(k, end, float(trial.t[k]), before=before))
     return found
 
 

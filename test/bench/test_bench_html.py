@@ -9,6 +9,7 @@ import pytest
 
 from pam_ros.bench.outcome import Status
 from pam_ros.bench.page import headline, page
+from pam_ros.bench.plots import OUTAGE
 from pam_ros.bench.trial import Trial
 from support.outcomes import results_of
 
@@ -27,7 +28,10 @@ def trial(muscles, *, revolute=False):
     pressure = 3e5 + 1e5 * np.sin(3.0 * t)[:, None] * np.arange(1, muscles + 1)
     limits = np.repeat([[0.0], [6e5]], muscles, axis=1)
     none = np.full(t.size, 1e-4)
-    return Trial(t, position, reference, pressure, limits, none, np.array([3.0]), revolute)
+    outages = np.array([[2.0, 2.5], [5.0, np.inf]])[: 2 * revolute]
+    return Trial(
+        t, position, reference, pressure, limits, none, np.array([3.0]), revolute, outages
+    )
 
 
 @pytest.fixture(scope='module')
@@ -73,6 +77,12 @@ def test_the_axes_of_all_controllers_are_equal(html):
     assert labels(first) == labels(second) != labels(other)
     assert 'error [mm]' in labels(first)
     assert 'error [mrad]' in labels(other)
+
+
+def test_outages_are_shaded_in_each_plot_of_their_scenario(html):
+    first, second, other = re.findall(r'<svg class="plot".*?</svg>', html, flags=re.S)
+    assert [one.count(f'fill: {OUTAGE}') for one in (first, second, other)] == [0, 0, 6]
+    assert html.count('outage of the rig') == 1
 
 
 def test_nothing_is_missing_or_overlapping_in_a_browser(html, look):

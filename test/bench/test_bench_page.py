@@ -3,8 +3,10 @@
 """The page on the bench has all scores, references, keys and options; its scenario is valid."""
 
 import pytest
+import yaml
 
 from pam_ros.bench.controllers import OWN
+from pam_ros.bench.faults import KINDS, CommandFaults, StateFaults, messages_of, outages_of
 from pam_ros.bench.references import REFERENCES
 from pam_ros.bench.scenario import KEYS, TABLES, read_scenario
 from pam_ros.bench.scores import SCORES
@@ -30,6 +32,19 @@ def test_scores():
 def test_references():
     found = {code(kind)[0]: set(code(given)) for kind, given, _ in marked('references')}
     assert found == {kind: {*described(cls)} - {'time'} for kind, cls in REFERENCES.items()}
+
+
+def test_messages_and_outages():
+    kinds = {'states': StateFaults, 'commands': CommandFaults}
+    assert marked('messages') == [
+        [f'`{part}.{name}`', '0 s' if about.unit else '0', f'{about.text}, {about.allowed()}']
+        for part, cls in kinds.items()
+        for name, (_, _, about) in described(cls).items()
+    ]
+    assert [code(kind)[0] for kind, *_ in marked('outages')] == [*KINDS]
+    _, messages, outages = (yaml.safe_load(text) for text in blocks(PAGE, 'yaml')[:3])
+    assert messages_of(messages['messages']).commands.jitter == 0.004
+    assert [one.kind for one in outages_of(outages['outages'], 14.0)] == ['freeze', 'stop']
 
 
 def test_keys_options_and_controllers():

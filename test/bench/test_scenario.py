@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import yaml
 
+from pam_ros.bench.faults import NO_FAULTS, CommandFaults, MessageFaults, StateFaults
 from pam_ros.bench.scenario import RATE, chosen, read_scenario, scenarios_of_package
 from pam_ros.errors import ParameterError
 
@@ -17,6 +18,7 @@ GOOD = {
     'reference': {'kind': 'step', 'size': 0.02},
     'changes': [{'time': 2.0, 'effects.payload.mass': 5.0}],
 }
+FREEZE = {'kind': 'freeze', 'time': 1.0, 'duration': 0.5}
 
 
 def written(folder, **changes):
@@ -45,6 +47,21 @@ def test_the_simulator_has_both_and_changes_in_time(tmp_path):
     assert (first.sensors.seed, first.settings.time_mode) == (7, 'lockstep')
     assert first.settings.publish_rate == RATE
     assert scenario.reference.at(np.array([0.0, 3.9])).tolist() == [0.0, 0.02]
+
+
+def test_faults_of_messages_and_outages(tmp_path):
+    messages = {'states': {'loss': 0.1, 'dropout': 0.05}, 'commands': {'delay': 0.008}}
+    outages = [
+        FREEZE,
+        {'kind': 'restart', 'time': 2, 'duration': 1},
+        {'kind': 'stop', 'time': 3.5},
+    ]
+    scenario = read_scenario(written(tmp_path, messages=messages, outages=outages))
+    assert scenario.messages == MessageFaults(StateFaults(0.1, 0.05), CommandFaults(delay=0.008))
+    found = [(one.kind, one.time, one.end) for one in scenario.outages]
+    assert found == [('freeze', 1.0, 1.5), ('restart', 2.0, 3.0), ('stop', 3.5, np.inf)]
+    plain = read_scenario(written(tmp_path))
+    assert (plain.messages, plain.outages) == (NO_FAULTS, ())
 
 
 def test_a_parameter_file_beside_the_scenario_is_found(tmp_path, monkeypatch):
@@ -85,6 +102,37 @@ def test_a_parameter_file_beside_the_scenario_is_found(tmp_path, monkeypatch):
             {'changes': [{'time': 2.0, 'initial.pressure': 1e5}]},
             'changes: initial.pressure cannot',
         ),
+        ({'messages': 0.1}, 'messages = 0.1 is not allowed: give a mapping with states, commands'),
+        ({'messages': {'state': {}}}, 'messages.state is not known: was states meant?'),
+        ({'messages': {'states': None}}, 'messages.states = None is not allowed: give a mapping'),
+        ({'messages': {'states': {'lost': 0.1}}}, 'messages.states.lost is not known: give loss'),
+        (
+            {'messages': {'states': {'delay': 0.1}}},
+            'messages.states.delay is not known: give loss',
+        ),
+        (
+            {'messages': {'states': {'loss': 1.5}}},
+            'messages.states.loss = 1.5 is not allowed: give 0 to 0.9',
+        ),
+        ({'messages': {'commands': {'loss': -0.1}}}, 'messages.commands.loss = -0.1 is not'),
+        ({'messages': {'commands': {'jitter': '5 ms'}}}, "messages.commands.jitter = '5 ms' is"),
+        (
+            {'messages': {'commands': {'delay': -0.1}}},
+            'delay = -0.1 is not allowed: give 0 to 1 s',
+        ),
+        ({'messages': {'states': {'dropout': 0.1}}}, 'messages.states.dropout = 0.1 s has no'),
+        ({'outages': FREEZE}, 'outages is not a list of mappings'),
+        ({'outages': ['stop']}, "outages[0] = 'stop' is not allowed: give a mapping with kind"),
+        ({'outages': [{**FREEZE, 'lenght': 1.0}]}, 'outages[0].lenght is not known'),
+        ({'outages': [{**FREEZE, 'kind': 'hang'}]}, "outages[0].kind = 'hang' is not allowed"),
+        ({'outages': [{'kind': 'freeze', 'time': 1.0}]}, 'outages[0].duration is missing'),
+        ({'outages': [{'kind': 'stop'}]}, 'outages[0].time is missing'),
+        ({'outages': [{**FREEZE, 'kind': 'stop'}]}, 'outages[0].duration is not allowed for the'),
+        ({'outages': [{**FREEZE, 'time': -1.0}]}, 'outages[0].time = -1.0 is not allowed: give'),
+        ({'outages': [{**FREEZE, 'duration': 0}]}, 'outages[0].duration = 0 is not allowed'),
+        ({'outages': [{**FREEZE, 'time': 3.8}]}, 'outages[0] ends at 4.3 s, after the scenario'),
+        ({'outages': [FREEZE, {**FREEZE, 'time': 1.5}]}, 'outages[1].time = 1.5 s is not after'),
+        ({'outages': [{'kind': 'stop', 'time': 1.0}, FREEZE]}, 'outages[1] comes after the kind'),
     ],
 )
 def test_what_is_wrong_is_named_with_the_file(tmp_path, changes, sentence):
@@ -105,12 +153,15 @@ def test_a_file_that_is_no_mapping(tmp_path):
 def test_the_scenarios_of_the_package():
     """Each is valid, tells its score, and a rest to judge comes after 4 s without a motion."""
     every = scenarios_of_package()
-    assert len({one.name for one in every}) == len(every) >= 45
+    assert len({one.name for one in every}) == len(every) >= 54
     for one in every:
         first, *_ = one.setups(0, 'lockstep')
         assert first[1].joints[0].is_revolute is (
             one.suite == 'joint' and 'parallel' not in one.name
         )
+        for outage in one.outages:  # it can be judged before it, or after it
+            assert outage.time > 2.0
+            assert outage.kind == 'stop' or outage.end < one.duration - 4.0
         if one.score == 'error_at_rest':
             end = one.reference.at(np.linspace(one.duration - 4.0, one.duration, 99))
             assert np.ptp(end) == 0.0

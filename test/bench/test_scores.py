@@ -161,6 +161,69 @@ def test_recovery_ends_at_a_motion_and_needs_rest_around_the_change():
         assert found['recovery'] == (None if time is None else pytest.approx(time))
 
 
+# Outages -----------------------------------------------------------------------------------------
+
+OUTAGE = np.array([[4.0, 5.0]])
+
+
+def test_what_happens_during_an_outage_does_not_count():
+    """An error of 1 mm before, of 500 mm during an outage, and of 3 mm after it."""
+    out = (T > 4.0 - 1e-9) & (T < 5.0 - 1e-9)
+    error = np.where(out, 0.5, np.where(T < 4.5, 1e-3, 3e-3))
+    sine = 0.01 * np.sin(2.0 * np.pi * np.maximum(T - 1.0, 0.0))
+    pressure = np.where(out, 0.0, np.where(T < 4.5, 1e5, 3e5))
+    found = scores_of(trial(sine, sine - error, pressure, outages=OUTAGE))
+    assert found['rms_error'] == pytest.approx(math.sqrt((3 * 1e-6 + 5 * 9e-6) / 8), rel=1e-3)
+    assert found['worst_error'] == pytest.approx(3e-3)
+    assert found['pressure_variation'] == pytest.approx(200.0 / 8.0, rel=1e-3)
+    assert found['recovery'] is None  # the reference moves
+    held = scores_of(trial(0.0, -error, pressure, outages=OUTAGE))
+    assert held['worst_error'] == pytest.approx(3e-3)  # from the return on
+    assert held['pressure_variation'] == pytest.approx(200.0 / 5.0, rel=1e-3)
+    wild = scores_of(trial(pressure=np.where(out, 9e5, 1e5), outages=OUTAGE))
+    assert wild['limit_violations'] == pytest.approx(10.0, rel=1e-2)
+
+
+@pytest.mark.parametrize('changes', [(), (4.5,), (5.0,)])
+def test_a_recovery_begins_at_the_return(changes):
+    """A change of the rig during the outage belongs to it; the band is that before the outage."""
+    error = decay(5.0, 0.01) + np.where((T > 4.0) & (T < 5.0 - 1e-9), 0.3, 0.0)
+    found = scores_of(trial(position=error, outages=OUTAGE, changes=changes))
+    assert found['recovery'] == pytest.approx(math.log(100.0), abs=PERIOD)
+    again = np.array([[4.0, 5.0], [7.0, np.inf]])
+    assert scores_of(trial(position=error, outages=again))['recovery'] == pytest.approx(2.0)
+
+
+def test_a_jump_ends_with_an_outage_and_has_no_meaning_in_one():
+    response = step(lambda t: -np.expm1(-t), outages=OUTAGE)
+    assert scores_of(response)['settling_time'] == pytest.approx(3.0)
+    hidden = replace(response, outages=np.array([[0.5, 2.0]]))
+    assert scores_of(hidden)['settling_time'] is None
+
+
+@pytest.mark.parametrize(
+    ('outage', 'has_rest'), [((4.0, 5.9), True), ((4.0, 7.0), False), ((4.0, np.inf), False)]
+)
+def test_a_rest_has_no_outage(outage, has_rest):
+    found = scores_of(trial(outages=np.array([outage])))
+    assert (found['error_at_rest'] == 0.0) is has_rest
+    assert (found['chatter'] is not None) is has_rest
+
+
+def test_a_rig_that_stops_at_once_has_no_errors():
+    found = scores_of(trial(outages=np.array([[0.5, np.inf]])))
+    assert found['rms_error'] is found['worst_error'] is found['pressure_variation'] is None
+    assert found['limit_violations'] == 0.0
+
+
+def test_states_without_an_answer_have_no_computing_time():
+    answer = np.where(np.arange(T.size) % 3, 2e-3, np.nan)
+    found = scores_of(trial(answer=answer))
+    assert found['computing_time'] == pytest.approx(2.0)
+    assert found['computing_time_worst'] == pytest.approx(2.0)
+    assert scores_of(trial(answer=np.full(T.size, np.nan)))['computing_time'] is None
+
+
 # Pressures ---------------------------------------------------------------------------------------
 
 

@@ -171,10 +171,11 @@ class _Watch:
     def is_counting(self) -> bool:
         """Return whether commands after the end of a run in lockstep are still counted.
 
-        There is none for the last state at the end, and none before the next state.
+        There is none for the last state at the end, and none before the next state. During an
+        outage a controller may send commands by its own clock.
         """
         rig, now = self._rig, monotonic()
-        if not rig.is_lockstep:
+        if not rig.is_lockstep or rig.is_out:
             return False
         self._done = self._done or (now, rig.commands)
         begin, before = self._done
@@ -211,9 +212,9 @@ class _Watch:
             self._refuse_silence(now)
         elif rig.is_waiting:
             self._decide(now)
-        elif rig.is_lockstep and rig.published < FIRST and now - rig.commanded_at > STUCK:
+        elif rig.is_lockstep and rig.sent < FIRST and rig.waited > STUCK:
             raise _RealTimeNeededError('scaled')
-        elif now - rig.commanded_at > SILENCE:
+        elif rig.waited > SILENCE:
             raise _EarlyEndError(
                 Status.STOPPED_ANSWERING,
                 f'sent no command for {SILENCE:g} s, {rig.time:.3f} s after the start',
