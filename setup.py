@@ -62,11 +62,13 @@ setup(
         'tqdm',
     ],
     extras_require={
+        'cluster': ['distributed'],
         'excel': ['openpyxl'],
         'fast': ['numba'],
         'test': [
             'pytest',
             'pytest-xdist',
+            'distributed',
             'hypothesis',
             'ipykernel',
             'jsonschema',

@@ -5,11 +5,15 @@
 import argparse
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from contextlib import closing
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
+
+from pam_ros.parallel.cluster import ClusterPool
+from pam_ros.parallel.local import LocalPool
+from pam_ros.parallel.tasks import Failure, run_tasks
 
 Job = TypeVar('Job')
 
@@ -21,6 +25,7 @@ def options(about: str | None, seeds: int) -> argparse.ArgumentParser:
     parser.add_argument('--first', type=int, default=0)
     parser.add_argument('--kinds', default='')
     parser.add_argument('--jobs', type=int, default=2)
+    parser.add_argument('--dask', metavar='ADDRESS', help='of the scheduler of a Dask cluster')
     parser.add_argument('--log', type=Path)
     return parser
 
@@ -35,11 +40,18 @@ def chosen(given: argparse.Namespace, kinds: Iterable[str]) -> list[tuple[str, i
 def run_all(
     run_trial: Callable[[Job], dict[str, Any]], jobs: list[Job], given: argparse.Namespace
 ) -> list[dict[str, Any]]:
-    """Run the trials, print and log a line for each, and return their rows."""
-    rows: list[dict[str, Any]] = []
-    with ProcessPoolExecutor(given.jobs) as pool:
-        for row in pool.map(run_trial, jobs):
-            rows.append(row)
+    """Run the trials, print and log a line for each, and return their rows in order.
+
+    Trials that could not be run are printed, and are no rows.
+    """
+    rows: dict[int, dict[str, Any]] = {}
+    pool = ClusterPool(given.dask) if given.dask else LocalPool(given.jobs)
+    with closing(run_tasks(run_trial, jobs, pool, prepare)) as results:
+        for number, row in results:
+            if isinstance(row, Failure):
+                print(f'{jobs[number]} could not be run: {row.reason}', flush=True)
+                continue
+            rows[number] = row
             if given.log:
                 with given.log.open('a') as log:
                     log.write(json.dumps(row) + '\n')
@@ -49,7 +61,11 @@ def run_all(
                 f'{row["augmented"] / row["noise"]:6.2f} x noise  {row["seconds"]:5.1f} s',
                 flush=True,
             )
-    return rows
+    return [rows[number] for number in sorted(rows)]
+
+
+def prepare() -> None:
+    """Prepare a process for trials: nothing is needed."""
 
 
 def shares(names: Iterable[str], groups: Sequence[Sequence[bool]]) -> dict[str, float]:

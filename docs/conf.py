@@ -34,6 +34,7 @@ NAVIGATION = {
         'docs/simulator',
         'docs/controller',
         'docs/bench',
+        'docs/cluster',
         'docs/plot',
         'docs/recordings',
         'docs/identification',

@@ -25,7 +25,17 @@ _Base: Any = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)  # the fast one, if a
 
 
 class _Loader(_Base):  # type: ignore[misc]
-    """YAML as ROS reads it: 6e5 is a number, 2026-11-22 a text."""
+    """YAML as ROS reads it: 6e5 is a number, 2026-11-22 a text. A key is there once."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> Any:
+        """Return the mapping; raises a YAMLError for a key that is there twice."""
+        seen: set[tuple[str, str]] = set()
+        for key, _ in node.value:
+            if (one := (key.tag, str(key.value))) in seen:
+                what = f'{printable(str(key.value))} is there twice: give it once'
+                raise yaml.MarkedYAMLError(problem=what, problem_mark=key.start_mark)
+            seen.add(one)
+        return super().construct_mapping(node, deep)
 
 
 _Loader.yaml_implicit_resolvers = {

@@ -47,6 +47,8 @@ def test_a_byte_order_mark_does_no_harm(file):
 @pytest.mark.parametrize(
     ('content', 'words'),
     [
+        ('b: 1\na: 1\nb: 2', 'line 3, column 1: b is there twice: give it once'),
+        ('x: {mass: 1, mass: 1}', 'line 1, column 14: mass is there twice'),
         ('a: [', 'line [12], column .: while parsing a flow node'),
         ('a: 1\n---\na: 1', 'another document'),
         ('a: \0', 'control characters|special characters'),

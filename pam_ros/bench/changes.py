@@ -62,9 +62,9 @@ def _scores(old: Results, new: Results, scenario: str, controller: str) -> Itera
         if not seeds:
             continue
         a, b = [was[seed] for seed in seeds], [now[seed] for seed in seeds]
-        word = 'better' if is_lower(b, a) else 'worse' if is_lower(a, b) else ''
+        unit = new.unit(scenario, score.name)
+        word = 'better' if is_lower(b, a, unit) else 'worse' if is_lower(a, b, unit) else ''
         if word:
-            unit = new.unit(scenario, score.name)
             before, after = (value_text(float(np.median(one)), unit) for one in (a, b))
             what = f'{name_in_words(score.name)} of {controller}'
             yield shown(f'{scenario}: {what} is {word}: {after}, before {before}')

@@ -5,7 +5,8 @@
 All controllers have the same seeds, and thus the same noise and the same changes of the rig, so
 that they are compared by the differences of each seed. One score is lower than another one if
 
-- the medians differ by at least 1 %: less is of no use, whatever the spread; and
+- the medians differ by at least 1 %, and by what can matter on a rig, such as 0.1 um: less is of
+  no use, whatever the spread; and
 - a paired t test says so (p < 0.05, two-sided). For the few seeds of a bench there is no test
   without an assumption on the distribution: a sign test or a permutation test of 5 seeds has
   p = 0.06 at least. Scores of equal controllers have symmetric differences, for which the test is
@@ -31,6 +32,8 @@ from scipy import stats
 from pam_ros.bench.outcome import Results
 
 RELEVANT = 0.01  # smallest difference, as a share of the larger median
+# Smallest difference by the unit of the score: far below what sensors and valves resolve.
+LEAST = {'m': 1e-7, 'rad': 1e-6, 's': 2e-3, 'percent': 0.01, 'kPa': 1e-3, 'kPa/s': 0.01}
 LEVEL = 0.05  # of the two-sided t test
 CONFIDENCE = 0.95  # of an interval of the median, where there are enough seeds
 
@@ -96,14 +99,14 @@ def median_interval(values: ArrayLike) -> Interval | None:
     return Interval(float(ordered[k - 1]), float(ordered[n - k]), 1.0 - 2.0 * outside)
 
 
-def is_lower(one: ArrayLike, other: ArrayLike) -> bool:
+def is_lower(one: ArrayLike, other: ArrayLike, unit: str = '') -> bool:
     """Return whether *one* score is lower than *other* by more than the spread over n seeds.
 
-    Both (n,) are in the order of the same seeds, and at least 0.
+    Both (n,) are in the order of the same seeds, at least 0, and in this *unit*.
     """
     a, b = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
     gap = np.median(b) - np.median(a)
-    if not (gap > 0.0 and gap >= RELEVANT * np.median(b)):
+    if not (gap > LEAST.get(unit, 0.0) and gap >= RELEVANT * np.median(b)):
         return False
     n = len(a)
     if n == 1:
@@ -126,9 +129,10 @@ def best(results: Results, scenario: str, score: str) -> str | None:
     whole = _whole(results, scenario, score)
     if len(rivals) < 2:
         return None
+    unit = results.unit(scenario, score)
     for name, values in whole.items():
         others = [other for key, other in whole.items() if key != name]
-        if values and all(_is_lower(values, other) for other in others):
+        if values and all(_is_lower(values, other, unit) for other in others):
             return name
     return None
 
@@ -172,11 +176,12 @@ def standings(results: Results) -> list[Standing]:
     for scenario, about in results.about.items():
         whole = _whole(results, scenario, about.main_score)
         winner = best(results, scenario, about.main_score)
+        unit = results.unit(scenario, about.main_score)
         for controller, count in counts.items():
             values = whole.get(controller)
             count[0] += controller == winner
             count[1] += bool(values) and not any(
-                _is_lower(other, values) for other in whole.values() if values and other
+                _is_lower(other, values, unit) for other in whole.values() if values and other
             )
             count[2] += any(not run.is_completed for run in results.runs(scenario, controller))
     return [Standing(controller, *count) for controller, count in counts.items()]
@@ -206,7 +211,7 @@ def _whole(results: Results, scenario: str, score: str) -> dict[str, Values]:
     return found
 
 
-def _is_lower(one: Values, other: Values) -> bool:
+def _is_lower(one: Values, other: Values, unit: str) -> bool:
     """Return whether *one* is lower in the seeds of both; false if they have none in common."""
     seeds = sorted(set(one) & set(other))
-    return bool(seeds) and is_lower([one[s] for s in seeds], [other[s] for s in seeds])
+    return bool(seeds) and is_lower([one[s] for s in seeds], [other[s] for s in seeds], unit)

@@ -198,15 +198,16 @@ def _outage(what: str, given: Any, duration: float) -> Outage:
         'duration': (float, Parameter('length', 's', low=SHORTEST, high=duration)),
     }
     _refuse_keys(what, given, about)
-    needed = [key for key in about if key != 'duration' or given.get('kind') != STOP]
-    for key in needed:
-        if key not in given:
+    values: dict[str, Any] = {}
+    for key, (kind, allowed) in about.items():
+        is_last = key == 'duration' and values['kind'] == STOP
+        if is_last and key in given:
+            raise ParameterError(f'{what}.{key} is not allowed for the kind {STOP}: leave it out')
+        if key in given:
+            values[key] = allowed.check(f'{what}.{key}', given[key], kind)
+        elif not is_last:
             raise ParameterError(f'{what}.{key} is missing')
-    if len(given) > len(needed):
-        raise ParameterError(f'{what}.duration is not allowed for the kind {STOP}: leave it out')
-    outage = Outage(
-        **{key: about[key][1].check(f'{what}.{key}', given[key], about[key][0]) for key in given}
-    )
+    outage = Outage(**values)
     if duration < outage.end < inf:
         raise ParameterError(
             f'{what} ends at {outage.end:g} s, after the scenario, which takes {duration:g} s: '

@@ -15,7 +15,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
-from pam_ros.bench.outcome import Outcome, Results
+from pam_ros.bench.outcome import NotRun, Outcome, Results
 from pam_ros.bench.table import value_text
 from pam_ros.errors import ParameterError, shown
 from pam_ros.identification.wording import name_in_words
@@ -65,15 +65,21 @@ def shortfalls(results: Results, limits: Limits) -> list[str]:
             unit = results.unit(scenario, score)
             for controller in results.controllers:
                 what = f'{name_in_words(score)} of {controller}'
-                problem = _problem(results.runs(scenario, controller), score, limit, unit)
+                runs = results.runs(scenario, controller)
+                lacking = results.lacking(scenario, controller)
+                problem = _problem(runs, lacking, score, limit, unit)
                 if problem:
                     sentences.append(shown(f'{scenario}: {what} must be at most {problem}'))
     return sentences
 
 
-def _problem(runs: list[Outcome], score: str, limit: float, unit: str) -> str:
+def _problem(
+    runs: list[Outcome], lacking: list[NotRun], score: str, limit: float, unit: str
+) -> str:
     """Return *limit* and why *runs* of a controller do not keep it; '' if they do."""
     text = value_text(limit, unit)
+    for one in lacking:
+        return f'{text}, but it could not be run with seed {one.seed} ({one.reason})'
     if not runs:
         return f'{text}, but it did not run'
     for run in runs:

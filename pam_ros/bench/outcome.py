@@ -71,6 +71,16 @@ class Outcome:
 
 
 @dataclass(frozen=True)
+class NotRun:
+    """A run that could not be performed, by no fault of the controller; *reason* is a sentence."""
+
+    scenario: str
+    controller: str
+    seed: int
+    reason: str
+
+
+@dataclass(frozen=True)
 class ScoreAbout:
     """What a score is; lower is better. ``unit`` is 'position' for m or rad, by the joint.
 
@@ -118,7 +128,7 @@ class Results:
 
     ``about`` has the scenarios by name, ``controllers`` the names in the order in which they were
     given, ``scores`` the descriptions of the scores. A scenario, controller and seed have one
-    outcome; there is none where a bench was ended before.
+    outcome, or are in ``not_run``.
     """
 
     about: Mapping[str, ScenarioAbout]
@@ -126,6 +136,7 @@ class Results:
     scores: tuple[ScoreAbout, ...]
     outcomes: tuple[Outcome, ...]
     provenance: Provenance
+    not_run: tuple[NotRun, ...] = ()
 
     @property
     def seeds(self) -> list[int]:
@@ -135,6 +146,12 @@ class Results:
     def runs(self, scenario: str, controller: str) -> list[Outcome]:
         """Return the outcomes of *controller* in *scenario*, by seed."""
         return self._runs.get((scenario, controller), [])
+
+    def lacking(self, scenario: str, controller: str) -> list[NotRun]:
+        """Return the runs of *controller* in *scenario* that could not be performed."""
+        return [
+            one for one in self.not_run if (one.scenario, one.controller) == (scenario, controller)
+        ]
 
     @cached_property
     def _runs(self) -> dict[tuple[str, str], list[Outcome]]:

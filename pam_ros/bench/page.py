@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from pam_ros.bench.compare import Comparison, compared, standings
+from pam_ros.bench.force_plot import force_plot
 from pam_ros.bench.outcome import Results, ScoreAbout
 from pam_ros.bench.plots import MUSCLES, OUTAGE, TrialPicture, pictures
-from pam_ros.bench.table import criterion, scale_in
+from pam_ros.bench.table import NOT_RUN, criterion, scale_in
 from pam_ros.bench.trial import Trial
 from pam_ros.errors import shown
 from pam_ros.identification.wording import ABSENT, listed, name_in_words
@@ -50,6 +51,7 @@ class ScenarioPart:
     rows: list[Row]
     failures: list[str]
     pictures: list[TrialPicture]
+    forces: str
     muscles: int
     has_changes: bool
     has_outages: bool
@@ -99,6 +101,8 @@ def _lead(results: Results) -> str:
     failed = sum(not run.is_completed for run in results.outcomes)
     each = f'with {seeds} seeds of the sensor noise each' if seeds > 1 else 'with one seed'
     end = f'{failed} of them failed.' if failed else 'All of them were completed.'
+    if results.not_run:
+        end += f' {len(results.not_run)} more {NOT_RUN}.'
     return f'{listed(list(results.controllers))}: {runs} runs, {each}. {end}'
 
 
@@ -125,8 +129,14 @@ def _part(results: Results, name: str, mark: str, trials: Trials) -> ScenarioPar
             shown(f'{run.controller} {run.status.words} (seed {run.seed}): {run.reason}')
             for run in runs
             if not run.is_completed
+        ]
+        + [
+            shown(f'{one.controller} {NOT_RUN} (seed {one.seed}): {one.reason}')
+            for one in results.not_run
+            if one.scenario == name
         ],
         pictures(mark, own),
+        force_plot(mark, own),
         0 if first is None else first.pressure.shape[1],
         first is not None and first.changes.size > 0,
         first is not None and first.outages.size > 0,

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A controller as a process, in a process group of its own, which is ended with the run."""
 
+import ctypes
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -12,6 +14,16 @@ from types import TracebackType
 
 PATIENCE = 5.0  # s within which a controller must end after Ctrl-C, before it is killed
 MOST_OUTPUT = 4000  # characters at the end of the output that are kept
+
+
+_LIBC = ctypes.CDLL(None)
+_PR_SET_PDEATHSIG = 1  # of prctl(2)
+
+
+def _end_with_parent() -> None:
+    """Let the kernel end this process if the one that started it is killed (Linux)."""
+    if sys.platform == 'linux':
+        _LIBC.prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 class ControllerProcess:
@@ -26,6 +38,7 @@ class ControllerProcess:
             stdout=self._out,
             stderr=subprocess.STDOUT,
             start_new_session=True,
+            preexec_fn=_end_with_parent,  # noqa: PLW1509 it makes one call of the system
             env={**os.environ, **environment},
         )
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from pam_ros.bench.outcome import (
+    NotRun,
     Outcome,
     Provenance,
     Results,
@@ -42,6 +43,17 @@ def read_results(path: Path) -> Results:
     except _DamagedError as error:
         raise PamError(f'{path} is damaged: {error}') from None
     return results
+
+
+def read_outcome(data: Any) -> Outcome:
+    """Return the outcome in *data*, a table of ``bench.json``.
+
+    Raises ValueError if it is not as it was written.
+    """
+    try:
+        return _outcome(_Node(data))
+    except _DamagedError as error:
+        raise ValueError(str(error)) from None
 
 
 class _DamagedError(Exception):
@@ -147,6 +159,8 @@ def _results(data: _Node) -> Results:
         ),
         tuple(map(_outcome, data['outcomes'].items())),
         _provenance(data['provenance']),
+        # Before the schema version 1.1 there were none.
+        tuple(map(_not_run, data['not_run'].items())) if 'not_run' in data.table() else (),
     )
 
 
@@ -172,6 +186,15 @@ def _outcome(data: _Node) -> Outcome:
     )
 
 
+def _not_run(data: _Node) -> NotRun:
+    return NotRun(
+        data['scenario'].text(),
+        data['controller'].text(),
+        data['seed'].whole(),
+        data['reason'].text(),
+    )
+
+
 def _provenance(data: _Node) -> Provenance:
     return Provenance(
         data['command'].text(),
@@ -184,7 +207,8 @@ def _provenance(data: _Node) -> Provenance:
 def _refuse_contradictions(results: Results) -> None:
     """Raise _DamagedError if names are repeated, or outcomes are of names that are not listed."""
     scores = [score.name for score in results.scores]
-    runs = [(run.scenario, run.controller, run.seed) for run in results.outcomes]
+    present: list[Outcome | NotRun] = [*results.outcomes, *results.not_run]
+    runs = [(run.scenario, run.controller, run.seed) for run in present]
     for what, names in (
         ('score', scores),
         ('controller', results.controllers),
@@ -195,9 +219,9 @@ def _refuse_contradictions(results: Results) -> None:
     listed = {'scenario': set(results.about), 'controller': set(results.controllers)}
     listed['score'] = set(scores)
     used = [('score', about.main_score) for about in results.about.values()]
-    for run in results.outcomes:
+    for run in present:
         used += [('scenario', run.scenario), ('controller', run.controller)]
-        used += [('score', name) for name in run.scores]
+    used += [('score', name) for run in results.outcomes for name in run.scores]
     for what, name in used:
         if name not in listed[what]:
             raise _DamagedError(f'the {what} {name} is used, but not described')

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """All runs of a bench, side by side in processes, each in a DDS domain of its own."""
 
-import multiprocessing
 import os
 import socket
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 from pam_ros.bench.controllers import Controller
@@ -16,8 +15,7 @@ from pam_ros.bench.domains import claim_domain
 from pam_ros.bench.outcome import Outcome
 from pam_ros.bench.scenario import Scenario
 from pam_ros.bench.trial import Trial
-from pam_ros.errors import PamError
-from pam_ros.processes.interrupts import raise_on_signal
+from pam_ros.parallel.tasks import Failure, Pool, run_tasks
 
 
 class Finished(NamedTuple):
@@ -59,30 +57,22 @@ def jobs_of(
 
 
 def run_all(
-    jobs: Sequence[Job], run: Run, workers: int, domain: int | None = None
-) -> Iterator[Finished]:
-    """Yield what each of *jobs* gave as they end, run by so many *workers* at once.
+    jobs: Sequence[Job], run: Run, pool: Pool, domain: int | None = None
+) -> Generator[tuple[Job, Finished | Failure], None, None]:
+    """Yield each of *jobs* once with what it gave, as they end in the processes of *pool*.
 
     Only trials with the first seed are returned. run(scenario, controller, seed, domain) performs
-    one job; it must be a function of a module. With one worker the DDS *domain* can be given. An
-    interrupt ends all controllers. Raises PamError if a worker is killed.
+    one job; it must be a function of a module. All jobs have the DDS *domain*, if one is given,
+    which then must be the only one that runs. Closing the generator ends all controllers.
     """
-    # A new process for each worker: a forked one would share the state of rclpy.
-    context = multiprocessing.get_context('spawn')
-    pool = ProcessPoolExecutor(workers, context, initializer=_begin, initargs=(domain,))
-    try:
-        futures = [pool.submit(_run, run, job) for job in jobs]
-        for future in as_completed(futures):
-            yield future.result()
-    except BrokenProcessPool:
-        raise PamError('a process of the bench was killed: is there enough memory?') from None
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
+    prepare = partial(_begin, domain)
+    with closing(run_tasks(partial(_run, run), jobs, pool, prepare)) as results:
+        for number, found in results:
+            yield jobs[number], found
 
 
 def _begin(domain: int | None) -> None:
-    """Prepare a worker: a signal to end must still stop the controller that runs."""
-    raise_on_signal()
+    """Prepare a process for runs."""
     # No rig on another machine is reached: neither from here nor by the controllers.
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     _Worker.domain, _Worker.lock = claim_domain(domain)

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """``bench.json``: the outcomes of a bench, described in ``docs/bench.schema.json``."""
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import asdict
 from datetime import datetime, timezone
@@ -10,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from pam_ros.bench.compare import compare, standings
-from pam_ros.bench.outcome import Provenance, Results
+from pam_ros.bench.outcome import Outcome, Provenance, Results
 from pam_ros.errors import PamError, printable
+from pam_ros.recording.digest import digest_of_files
 from pam_ros.report.numbers import to_json
 from pam_ros.report.provenance import versions
 from pam_ros.settings.files import write_whole
@@ -19,7 +19,7 @@ from pam_ros.settings.files import write_whole
 PROGRAM = 'pam_bench'
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
-SCHEMA_VERSION = '1.0'
+SCHEMA_VERSION = '1.1'
 
 
 def provenance(command: str, files: Mapping[str, Path]) -> Provenance:
@@ -32,7 +32,7 @@ def provenance(command: str, files: Mapping[str, Path]) -> Provenance:
         printable(command),
         datetime.now(timezone.utc).isoformat(timespec='seconds'),
         versions(),
-        {name: _digest(path) for name, path in files.items()},
+        {name: digest_of(path) for name, path in files.items()},
     )
 
 
@@ -64,9 +64,8 @@ def content(results: Results) -> dict[str, Any]:
         'scenarios': [{'name': name, **asdict(about)} for name, about in results.about.items()],
         'seeds': results.seeds,
         'scores': [asdict(score) for score in results.scores],
-        'outcomes': [
-            {**asdict(outcome), 'status': str(outcome.status)} for outcome in results.outcomes
-        ],
+        'outcomes': [outcome_table(outcome) for outcome in results.outcomes],
+        'not_run': [asdict(one) for one in results.not_run],
         'comparison': [
             {**asdict(one), 'unit': results.unit(one.scenario, one.score)}
             for one in compare(results)
@@ -76,8 +75,14 @@ def content(results: Results) -> dict[str, Any]:
     }
 
 
-def _digest(path: Path) -> str:
+def outcome_table(outcome: Outcome) -> dict[str, Any]:
+    """Return the table of *outcome* in ``bench.json``."""
+    return {**asdict(outcome), 'status': str(outcome.status)}
+
+
+def digest_of(path: Path) -> str:
+    """Return the SHA-256 of a file; raises PamError if it cannot be read."""
     try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
+        return digest_of_files([path])
     except OSError as error:
         raise PamError(f'{path} cannot be read: {error.strerror}') from error

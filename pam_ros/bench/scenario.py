@@ -177,7 +177,10 @@ def _table(key: str, given: Any, path: Path) -> dict[str, Any]:
     if isinstance(muscle := found.get('muscle'), str):
         # A file may lie next to the scenario.
         beside = path.parent / muscle
-        found['muscle'] = str(beside.resolve() if beside.is_file() else find(muscle))
+        if beside.is_file():
+            found['muscle'] = str(beside.resolve())
+        else:
+            find(muscle)  # one of the package remains a name: on another machine its path differs
     return found
 
 

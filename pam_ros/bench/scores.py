@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import detrend
 
+from pam_ros.bench.forces import responses
 from pam_ros.bench.outcome import ScoreAbout
 from pam_ros.bench.trial import Trial
 from pam_ros.bench.windows import (
@@ -34,6 +35,7 @@ BAND_RATIO = 5.0  # band of a recovery to the RMS error before
 LIMIT_ROUNDING = 0.1  # Pa: 600 kPa in single precision
 KILO = 1e-3  # kPa in a Pa
 MILLI = 1e3  # ms in a s
+MICRO = 1e6  # um in a m
 LOAD = 'It depends on the machine and on what else runs on it.'
 
 
@@ -182,6 +184,29 @@ def _recovery(trial: Trial) -> float | None:
         usual = BAND_RATIO * _rms(before) if before.size else 0.0
         times.append(_settling(trial, part, max(BAND[trial.is_revolute], usual)))
     return max(times, default=None)
+
+
+@score(
+    'compliance',
+    unit='um/N',
+    text='Motion per force under a sinusoidal force on the load, at its frequency; the largest of '
+    'all frequencies. It is the amplitude of a sinusoid, fitted to whole periods in the second '
+    'half of the time in which the force is the same. It needs a periodic_disturbance for at '
+    'least 6 periods, and a joint that does not turn.',
+)
+def _compliance(trial: Trial) -> float | None:
+    found = [] if trial.is_revolute else responses(trial)
+    return MICRO * max((one.compliance for one in found), default=np.nan)
+
+
+@score(
+    'force_response',
+    unit='percent',
+    text='The motion of compliance in percent of that of the same rig at constant pressures; the '
+    'largest of all frequencies.',
+)
+def _force_response(trial: Trial) -> float | None:
+    return 100.0 * max((one.compliance / one.alone for one in responses(trial)), default=np.nan)
 
 
 # Pressures ---------------------------------------------------------------------------------------

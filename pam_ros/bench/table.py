@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Sequence
 
 from pam_ros.bench.compare import LEVEL, RELEVANT, Comparison, compared, standings
-from pam_ros.bench.outcome import Outcome, Results, ScoreAbout
+from pam_ros.bench.outcome import NotRun, Outcome, Results, ScoreAbout
 from pam_ros.errors import printable, shown
 from pam_ros.identification.wording import (
     ABSENT,
@@ -26,11 +26,12 @@ INDENT = '    '  # of what belongs to the line before
 # A score of each kind has a column in addition to the main one: the first that has a value.
 KINDS = (
     ('rms_error', 'error_at_rest', 'worst_error'),
-    ('settling_time', 'recovery', 'overshoot'),
+    ('settling_time', 'force_response', 'recovery', 'overshoot'),
     ('chatter', 'pressure_variation', 'filling'),
     ('computing_time', 'computing_time_worst'),
 )
-UNITS = {'percent': '%'}
+UNITS = {'percent': '%', 'um/N': 'µm/N'}
+NOT_RUN = 'could not be run'
 
 
 def value_text(value: float | None, unit: str, digits: int = 3) -> str:
@@ -52,11 +53,7 @@ def line(outcome: Outcome, scores: Sequence[ScoreAbout], main_score: str) -> str
     The second score is left out if there is no space for it, and a long reason is continued in
     the next lines.
     """
-    head = [
-        f'{_clipped(outcome.scenario):<16}',
-        f'{_clipped(outcome.controller):<12}',
-        f'seed {outcome.seed}',
-    ]
+    head = _head(outcome)
     if not outcome.is_completed:
         return _filled(GAP.join([*head, _ended(outcome.status.words, outcome.reason)]))
     about = {score.name: score for score in scores}
@@ -69,6 +66,20 @@ def line(outcome: Outcome, scores: Sequence[ScoreAbout], main_score: str) -> str
     pace = _pace(outcome)
     both = GAP.join([*head, *texts[:2], *pace])
     return both if len(both) <= WIDTH else GAP.join([*head, texts[0], *pace])
+
+
+def line_of_not_run(one: NotRun) -> str:
+    """Return a run that could not be performed, with the reason, as the lines of the others."""
+    return _filled(GAP.join([*_head(one), _ended(NOT_RUN, one.reason)]))
+
+
+def _head(run: Outcome | NotRun) -> list[str]:
+    """Return which run it is, in columns."""
+    return [
+        f'{_clipped(run.scenario):<16}',
+        f'{_clipped(run.controller):<12}',
+        f'seed {run.seed}',
+    ]
 
 
 def table(results: Results) -> str:
@@ -108,7 +119,7 @@ def _scenario(results: Results, scenario: str) -> str:
         for k in range(height)
     ]
     for controller in results.controllers:
-        failures = _failures(results.runs(scenario, controller))
+        failures = _failures(results, scenario, controller)
         if controller in rows:
             lines.append(_row(controller, rows[controller], widths))
         elif failures:
@@ -160,15 +171,17 @@ def _row(name: str, cells: Sequence[str], widths: Sequence[int]) -> str:
     return f'{GAP}{_clipped(name):<{NAME}}{GAP}{GAP.join(ends)}'.rstrip()
 
 
-def _failures(runs: list[Outcome]) -> list[str]:
+def _failures(results: Results, scenario: str, controller: str) -> list[str]:
     """Return a text for each way in which runs failed, with the reason of the first of them."""
+    runs = results.runs(scenario, controller)
     failed = [run for run in runs if not run.is_completed]
     texts = []
     for status in dict.fromkeys(run.status for run in failed):
         same = [run for run in failed if run.status is status]
         share = f' with {len(same)} of {len(runs)} seeds' if len(runs) > 1 else ''
         texts.append(_ended(status.words + share, same[0].reason))
-    return texts
+    lacking = results.lacking(scenario, controller)
+    return texts + [_ended(f'{NOT_RUN} with seed {one.seed}', one.reason) for one in lacking]
 
 
 def _ended(what: str, reason: str) -> str:

@@ -22,6 +22,9 @@ class Trial:
     not sent or not answered. ``changes`` (m,) are the times in s at which the rig changed, such as
     its load. ``outages`` (k, 2) are the times in s of the begin and the end of each outage of the
     rig, in which it sent no states and took no commands; one without an end is infinite there.
+    ``forces`` (j, 4) are the sinusoidal forces on the load: begin and end in s, frequency in Hz
+    and amplitude in N; if there are any, ``alone`` (n,) is the position of the rig at constant
+    pressures.
     """
 
     t: Array
@@ -33,6 +36,8 @@ class Trial:
     changes: Array
     is_revolute: bool = False
     outages: Array = field(default_factory=lambda: np.empty((0, 2)))
+    forces: Array = field(default_factory=lambda: np.empty((0, 4)))
+    alone: Array = field(default_factory=lambda: np.empty(0))
 
     @property
     def error(self) -> Array:

@@ -24,6 +24,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from pam_ros.cli.help_text import help_text
+from pam_ros.cli.pool_options import add_pool_options, count_of, pool_of
 from pam_ros.cli.sentence_parser import BAD_INPUT, SentenceParser
 from pam_ros.cli.start import NEEDS_ROS
 from pam_ros.errors import PamError, shown
@@ -61,7 +62,7 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument('--suite', choices=('muscle', 'joint'), help='only scenarios of this suite')
     made.add_argument(
         '--draw',
-        type=_count,
+        type=count_of,
         metavar='N',
         help='N scenarios drawn at random, kept in DIR/scenarios',
     )
@@ -71,10 +72,10 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument(
         '--quick', action='store_true', help='a short selection, with one seed unless --seeds'
     )
-    made.add_argument('--seeds', type=_count, metavar='N', help=f'runs of each (default: {SEEDS})')
     made.add_argument(
-        '--jobs', type=_count, default=1, metavar='N', help='runs side by side (default: 1)'
+        '--seeds', type=count_of, metavar='N', help=f'runs of each (default: {SEEDS})'
     )
+    add_pool_options(made, 'runs')
     made.add_argument(
         '--domain', type=int, metavar='N', help='DDS domain of a single job (default: a free one)'
     )
@@ -86,13 +87,6 @@ def parser() -> argparse.ArgumentParser:
     )
     made.add_argument('--list', action='store_true', help='list scenarios and scores, and end')
     return made
-
-
-def _count(text: str) -> int:
-    value = int(text) if text.isdigit() else 0
-    if not 1 <= value <= 1000:
-        raise argparse.ArgumentTypeError(f'{text!r} is not allowed: give 1 to 1000')
-    return value
 
 
 def _seed(text: str) -> int:
@@ -113,9 +107,11 @@ def main() -> None:
     except (PamError, OSError) as error:
         print(f'pam_bench: {shown(str(error))}', file=sys.stderr)
         code = BAD_INPUT
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
         what = 'nothing' if given.draw is None else 'nothing but the drawn scenarios'
-        print(f'pam_bench: interrupted, {what} was written', file=sys.stderr)
+        print(
+            f'pam_bench: interrupted, {str(interrupt) or f"{what} was written"}', file=sys.stderr
+        )
         code = INTERRUPTED
     finally:
         ignore_ends()
@@ -130,6 +126,8 @@ def _run(made: argparse.ArgumentParser, given: argparse.Namespace) -> int:
         made.error('--draw and --scenario exclude each other: give one of them')
     if given.seed is not None and given.draw is None:
         made.error(f'--seed {given.seed} is the seed of --draw: give --draw N, or --seeds N')
+    if given.resume and given.draw is not None and given.seed is None:
+        made.error('--resume needs --seed S with --draw: the names of the scenarios have it')
     if given.list:
         with TemporaryDirectory() as folder:
             print(listing.text(_scenarios(given, Path(folder))))
@@ -138,7 +136,8 @@ def _run(made: argparse.ArgumentParser, given: argparse.Namespace) -> int:
         made.error('no controller is given, such as sliding_mode or pid')
     if given.out is None:
         made.error('--out is missing: give the folder for the results')
-    if given.domain is not None and not (given.jobs == 1 and 0 <= given.domain <= 232):
+    is_single = not given.dask and given.jobs in (None, 1)
+    if given.domain is not None and not (is_single and 0 <= given.domain <= 232):
         made.error(f'--domain {given.domain} is not allowed: give 0 to 232, and one job')
     from pam_ros.bench.bench import perform
 
@@ -148,9 +147,10 @@ def _run(made: argparse.ArgumentParser, given: argparse.Namespace) -> int:
         if error.name != 'rclpy':
             raise
         raise PamError(NEEDS_ROS) from None
+    pool = pool_of(made, given)
     controllers_of(given.controllers)  # what is wrong is said before scenarios are written
     scenarios = _scenarios(given, given.out / 'scenarios')
-    return perform(given, scenarios, given.seeds or (1 if given.quick else SEEDS), run)
+    return perform(given, scenarios, given.seeds or (1 if given.quick else SEEDS), run, pool)
 
 
 def _scenarios(given: argparse.Namespace, folder: Path) -> 'list[Scenario]':

@@ -14,12 +14,12 @@ import argparse
 import shlex
 import signal
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
 from pam_ros.cli.help_text import help_text
+from pam_ros.cli.pool_options import add_pool_options, pool_of
 from pam_ros.cli.sentence_parser import BAD_INPUT, SentenceParser
 from pam_ros.cli.set_order import values_of_files
 from pam_ros.errors import PamError, printable, shown
@@ -48,9 +48,9 @@ def parser(*, is_part: bool = False) -> argparse.ArgumentParser:
     )
     made.add_argument(
         '--params',
-        required=not is_part,
         metavar='FILE',
-        help='the nominal model: a parameter file of pam_sim, or a muscle of this package',
+        help='the nominal model: a parameter file of pam_sim, or a muscle of this package; a list '
+        'of recordings may name it instead',
     )
     made.add_argument(
         '--set',
@@ -74,6 +74,7 @@ def parser(*, is_part: bool = False) -> argparse.ArgumentParser:
         action='store_true',
         help='also print how the fits ended and every effect that was tried',
     )
+    _add_batch_options(made)
     made.add_argument(
         '--out', type=Path, required=not is_part, metavar='DIR', help='folder for the report'
     )
@@ -126,6 +127,17 @@ def _add_recording_options(made: argparse.ArgumentParser, some: str) -> None:
     )
 
 
+def _add_batch_options(made: argparse.ArgumentParser) -> None:
+    """Add the options for many rigs."""
+    made.add_argument(
+        '--each',
+        action='store_true',
+        help='each RECORDING is of another rig: a report for each of them in a folder of --out, '
+        'and one table; a rig with several recordings is a list of them',
+    )
+    add_pool_options(made, 'rigs', 'with --each: ')
+
+
 class ProgressBar:
     """Shows the current step: a bar on a terminal, else a line when a new step begins."""
 
@@ -163,55 +175,23 @@ class ProgressBar:
 def run(given: argparse.Namespace, command: str) -> str:
     """Run the identification of the command line, write the report, return a summary."""
     from pam_ros.compiled import HAVE_NUMBA
-    from pam_ros.identification.data.segment import require_joint
-    from pam_ros.identification.identify import identify
     from pam_ros.identification.summary import details, last_line
-    from pam_ros.recording.inputs import refuse_copies, refuse_idle
-    from pam_ros.recording.mapping import column_names, read_mapping
     from pam_ros.recording.warning_list import warning_list
     from pam_ros.report.provenance import provenance
     from pam_ros.report.write import check_folder, write_report
-    from pam_ros.settings.nominal import nominal_joint, package_muscles, uncertain_values
-    from pam_ros.settings.recording_list import READING, recording_files
+    from pam_ros.settings.inputs import read_inputs
 
     check_folder(given.out)
-    nominal = nominal_joint(given.params, given.set)
-    model = nominal.joint
-    uncertain = {**uncertain_values(given.params), **dict(map(_deviation, given.uncertain))}
-    mapping = read_mapping(given.column, given.mapping)
-    reading = {
-        'muscles': nominal.recorded_muscles,
-        'columns': () if given.columns is None else column_names(given.columns),
-        **{name: getattr(given, name) for name in READING},
-    }
-    recordings, test = (
-        [
-            file.read(model, mapping, **reading)
-            for path, values in zip(paths, own, strict=True)
-            for file in recording_files(Path(path), _numbers(values))
-        ]
-        for paths, own in zip((given.recordings, given.test), given.values, strict=True)
-    )
-    require_joint([*recordings, *test], model)
-    refuse_idle(recordings)  # here already, so that no warning is printed before the error
-    refuse_copies([*recordings, *test])
-    for names, warning in warning_list([*recordings, *test]):
+    inputs = read_inputs(given, (given.recordings, given.test), given.values)
+    for names, warning in warning_list([*inputs.recordings, *inputs.test]):
         print(shown(f'{names}: {warning}'), file=sys.stderr)
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
-    source = provenance(nominal, given.params, given.set, recordings, test, command)
+    source = provenance(inputs, given.set, command)
     progress = ProgressBar()
     try:
         with end_promptly(sentence=STOPPED):  # kernels are compiled here
-            answer = identify(
-                model,
-                recordings,
-                test,
-                progress,
-                uncertain=uncertain,
-                warn=progress.say,
-                muscles=package_muscles(),
-            )
+            answer = inputs.identify(progress, progress.say)
         progress(1.0, 'writing the report')
         write_report(given.out, answer, source)
     finally:
@@ -221,28 +201,13 @@ def run(given: argparse.Namespace, command: str) -> str:
     return '\n'.join(map(printable, '\n\n'.join(texts).splitlines()))
 
 
-def _numbers(values: Mapping[str, str]) -> dict[str, float]:
-    """Return the numbers that ``--set`` gives to some of the recordings."""
-    found = {}
-    for name, text in values.items():
-        try:
-            found[name] = float(text)
-        except ValueError:
-            raise PamError(
-                f'--set {shown(name)}={shown(text)} between recordings is not allowed: give a '
-                'number'
-            ) from None
-    return found
+def run_each(made: argparse.ArgumentParser, given: argparse.Namespace, command: str) -> int:
+    """Identify each rig of the command line, and return the exit code."""
+    from pam_ros.batch.batch import identify_each
 
-
-def _deviation(text: str) -> tuple[str, str]:
-    """Return the name and the standard deviation of a text ``name=deviation``."""
-    name, equals, given = (part.strip() for part in text.partition('='))
-    if not (name and equals and given):
-        raise PamError(
-            f'--uncertain {shown(text)} is not allowed: give NAME=DEVIATION, such as inertia=50%'
-        )
-    return name, given
+    if given.test or given.verbose:
+        made.error(f'--{"test" if given.test else "verbose"} is not for --each')
+    return identify_each(given, command, pool_of(made, given))
 
 
 def main() -> None:
@@ -250,15 +215,22 @@ def main() -> None:
     signal.signal(signal.SIGTERM, _terminate)
     guard_outputs()
     try:
-        given = parser().parse_intermixed_args()
+        made = parser()
+        given = made.parse_intermixed_args()
         given.values = values_of_files(sys.argv[1:], parser)
         command = shlex.join(['pam_identify', *sys.argv[1:]])
+        if given.each:
+            sys.exit(run_each(made, given, command))
+        for option in ('jobs', 'dask', 'resume'):
+            if getattr(given, option):
+                made.error(f'--{option} is for --each')
         print(run(given, command))
     except PamError as error:
         print(f'pam_identify: {error}', file=sys.stderr)
         sys.exit(BAD_INPUT)
-    except KeyboardInterrupt:
-        print(STOPPED, file=sys.stderr)
+    except KeyboardInterrupt as interrupt:
+        kept = str(interrupt)
+        print(f'pam_identify: interrupted, {kept}' if kept else STOPPED, file=sys.stderr)
         sys.exit(INTERRUPTED)
 
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Read any recording: a rosbag2 directory, one of its files, a table file, or a DataFrame."""
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +14,7 @@ from pam_ros.recording.bag.clocks import TIMES
 from pam_ros.recording.bag.read import bag_files, read_bag
 from pam_ros.recording.bounds import Bounded, Bounds, bounds_of
 from pam_ros.recording.dataframe import series_of_frame
+from pam_ros.recording.digest import digest_of_files
 from pam_ros.recording.direction import with_contraction_positive, with_tension_positive
 from pam_ros.recording.likely import found_columns, may_have_output
 from pam_ros.recording.mapping import ColumnMapping
@@ -87,7 +87,7 @@ def read_recording(
         series, notes, header = read_table_file(path, mapping, columns, sheet, variable)
     name = printable(path.name or str(path))
     recording = _assembled(name, series, notes, header, mapping, bounds, kind, muscles)
-    return replace(recording, digest=_digest(files))
+    return replace(recording, digest=digest_of_files(files))
 
 
 def _refuse_given(options: Mapping[str, str | None], reason: str) -> None:
@@ -152,13 +152,3 @@ def _assembled(
     # The notes name columns and topics as they stand in the file.
     sentences = tuple(map(shown, (*recording.warnings, *warnings)))
     return replace(recording, warnings=sentences)
-
-
-def _digest(files: list[Path]) -> str:
-    """Return the SHA-256 of the files' contents, one after the other."""
-    digest = hashlib.sha256()
-    for file in files:
-        with file.open('rb') as stream:
-            for block in iter(lambda: stream.read(1 << 20), b''):
-                digest.update(block)
-    return digest.hexdigest()

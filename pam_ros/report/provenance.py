@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The origin of a report: files with their digests, the nominal model, and versions."""
 
-import hashlib
 import platform
 import shlex
 import sys
@@ -10,13 +9,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 from pam_ros.errors import printable
 from pam_ros.identification.identification import Identification
+from pam_ros.recording.digest import digest_of_files
 from pam_ros.recording.recording import Recording
 from pam_ros.settings.files import find
+from pam_ros.settings.inputs import Inputs
 from pam_ros.settings.nominal import NominalJoint, nominal_of
 from pam_ros.version import __version__
 
@@ -45,27 +45,19 @@ class Provenance:
     nominal: NominalJoint
 
 
-def provenance(
-    nominal: NominalJoint,
-    parameters: str,
-    overrides: Sequence[str],
-    recordings: Sequence[Recording],
-    test: Sequence[Recording],
-    command: str,
-) -> Provenance:
+def provenance(inputs: Inputs, overrides: Sequence[str], command: str) -> Provenance:
     """Return the provenance of an identification that this process performs now."""
-    path: Path = find(parameters)
     return Provenance(
         printable(command),
-        printable(parameters),
-        hashlib.sha256(path.read_bytes()).hexdigest(),
+        printable(inputs.params),
+        digest_of_files([find(inputs.params)]),
         tuple(map(printable, overrides)),
-        nominal.flat(),
-        tuple(recordings),
-        tuple(test),
+        inputs.nominal.flat(),
+        tuple(inputs.recordings),
+        tuple(inputs.test),
         datetime.now(timezone.utc).isoformat(timespec='seconds'),
         versions(),
-        nominal,
+        inputs.nominal,
     )
 
 

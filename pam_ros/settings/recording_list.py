@@ -4,6 +4,7 @@
 
 In a YAML file, each recording is a mapping in the list ``recordings``::
 
+    params: left_arm.yaml
     recordings:
       - file: light.csv
         set: {mass: 10}
@@ -13,11 +14,13 @@ In a YAML file, each recording is a mapping in the list ``recordings``::
         namespace: left
         columns: {/encoder.data: position_mm-3}
 
-``file`` is a path from the folder of the list. ``set`` has the numbers of load, transmission and
-mounting that this recording has instead of those of the nominal model. ``columns`` has the meaning
-of columns or topics, with which a recording whose position has another zero is shifted, and
-``names`` the names of columns in a file without them: ``t_s,pressure_kPa,-,position_mm``. The
-other keys are arguments of :func:`pam_ros.read_recording`.
+``params``, which may be left out, is the nominal model of the rig: a parameter file in the folder
+of the list, or a muscle of this package. ``file`` is a path from this folder. ``set`` has the
+numbers of load, transmission and mounting that this recording has instead of those of the nominal
+model. ``columns`` has the meaning of columns or topics, with which a recording whose position has
+another zero is shifted, and ``names`` the names of columns in a file without them:
+``t_s,pressure_kPa,-,position_mm``. The other keys are arguments of
+:func:`pam_ros.read_recording`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -37,6 +40,7 @@ from pam_ros.rig.joint import Joint
 SUFFIXES = ('.yaml', '.yml')
 # Arguments of read_recording that are texts.
 READING = ('kind', 'namespace', 'sheet', 'variable', 'time')
+TOP = ('recordings', 'params')  # keys of a list
 KEYS = ('file', 'set', 'columns', 'names', 'note', *READING)
 
 
@@ -83,18 +87,21 @@ def read_recordings(
     be used, and ParameterError for arguments of a wrong type.
     """
     mapping = ColumnMapping() if mapping is None else mapping
-    files = recording_files(as_path('path', path, 'the path of a YAML file'))
+    files, _ = recording_files(as_path('path', path, 'the path of a YAML file'))
     return [one.read(joint, mapping, muscles=muscles) for one in files]
 
 
-def recording_files(path: Path, numbers: Mapping[str, float] | None = None) -> list[RecordingFile]:
+def recording_files(
+    path: Path, numbers: Mapping[str, float] | None = None
+) -> tuple[list[RecordingFile], str | None]:
     """Return the files in the list at *path*, or *path* itself if it is a recording.
 
-    *numbers* are those of the rig in all of them, unless the list has others.
+    *numbers* are those of the rig in all of them, unless the list has others. The second value is
+    the nominal model that the list names, a file or a muscle; None if it names none.
     """
     numbers = {} if numbers is None else numbers
     if path.suffix not in SUFFIXES:
-        return [RecordingFile(path, numbers)]
+        return [RecordingFile(path, numbers)], None
     try:
         content = read_yaml(path)
     except ParameterError as error:
@@ -105,9 +112,20 @@ def recording_files(path: Path, numbers: Mapping[str, float] | None = None) -> l
             f"{path} has no list 'recordings': give lines such as '- file: monday.csv' beneath "
             "'recordings:'"
         )
-    return [
+    for key in content:
+        if key not in TOP:
+            raise RecordingError(f'{path}: {key!r} is not known: give {", ".join(TOP)}')
+    params = content.get('params')
+    if not isinstance(params, str | None):
+        raise RecordingError(
+            f'{path}: params = {params!r} is not allowed: give the name of a file or of a muscle'
+        )
+    if params is not None and (path.parent / params).is_file():
+        params = str(path.parent / params)
+    files = [
         _file(path, f'{path}, recording {k}', entry, numbers) for k, entry in enumerate(entries, 1)
     ]
+    return files, params
 
 
 def _file(path: Path, where: str, entry: Any, numbers: Mapping[str, float]) -> RecordingFile:

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 from scipy.stats import quantile_test
 
-from pam_ros.bench.compare import best, compared, is_lower, median_interval, standings
+from pam_ros.bench.compare import (
+    LEAST,
+    best,
+    compared,
+    is_lower,
+    median_interval,
+    standings,
+)
 from pam_ros.bench.outcome import Status
 from support.outcomes import results_of
 
@@ -54,6 +61,13 @@ def test_a_spread_that_all_seeds_share_does_not_hide_a_difference():
     seeds = np.array([1.0, 5.0, 2.0, 9.0, 4.0])
     assert is_lower(seeds, seeds * 1.2)
     assert not is_lower(seeds, (seeds * 1.2)[::-1])
+
+
+@pytest.mark.parametrize('unit', [*LEAST])
+def test_a_difference_that_no_rig_would_show_is_none(unit):
+    seeds = np.array([1.0, 1.1, 0.9]) * 1e-3 * LEAST[unit]
+    assert not is_lower(seeds, 900.0 * seeds, unit)
+    assert is_lower(seeds, 1200.0 * seeds, unit)
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from pam_ros.parameters import described
 from support.pages import DOCS, blocks, code, names, rows, text_of
 
 PAGE = DOCS / 'bench.md'
-UNITS = {'position': 'm or rad', 'percent': '%'}
+UNITS = {'position': 'm or rad', 'percent': '%', 'um/N': 'µm/N'}
 
 
 def marked(name):

@@ -125,6 +125,7 @@ def test_a_parameter_file_beside_the_scenario_is_found(tmp_path, monkeypatch):
         ({'outages': ['stop']}, "outages[0] = 'stop' is not allowed: give a mapping with kind"),
         ({'outages': [{**FREEZE, 'lenght': 1.0}]}, 'outages[0].lenght is not known'),
         ({'outages': [{**FREEZE, 'kind': 'hang'}]}, "outages[0].kind = 'hang' is not allowed"),
+        ({'outages': [{'kind': ['stop'], 'time': 1.0}]}, "outages[0].kind = ['stop'] is not"),
         ({'outages': [{'kind': 'freeze', 'time': 1.0}]}, 'outages[0].duration is missing'),
         ({'outages': [{'kind': 'stop'}]}, 'outages[0].time is missing'),
         ({'outages': [{**FREEZE, 'kind': 'stop'}]}, 'outages[0].duration is not allowed for the'),

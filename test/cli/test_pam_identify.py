@@ -163,7 +163,9 @@ def test_residual_file_gives_the_errors_of_the_report(found):
         (('friction.csv', *DECLARED, '--kind', 'held'), 'has no force'),
         (('friction.csv', *DECLARED, '--kind', 'loose'), 'invalid choice'),
         (('friction.csv', *DECLARED, '--test', 'friction.csv'), 'give each recording once'),
-        (('friction.csv',), 'the following arguments are required: --params'),
+        (('friction.csv', *DECLARED, '--jobs', '2'), '--jobs is for --each'),
+        (('friction.csv', *DECLARED, '--each', '--verbose'), '--verbose is not for --each'),
+        (('friction.csv',), '--params is missing: give the nominal model'),
     ],
 )
 def test_a_mistake_is_one_sentence_and_nothing_is_written(
@@ -184,6 +186,23 @@ def test_a_mistake_is_one_sentence_and_nothing_is_written(
     assert errors.startswith('pam_identify: ')
     assert sentence in errors
     assert left(bench) == before
+
+
+@pytest.mark.slow
+def test_each_of_several_rigs_has_a_report(bench, tmp_path):
+    listed = tmp_path / 'listed.yaml'
+    listed.write_text(
+        f'params: dmsp_20_400n\nrecordings: [{{file: {bench}/friction.csv}}]', encoding='utf-8'
+    )
+    given = ['--each', listed, 'no_time.csv', '--params', 'absent', '--set', 'mass=20']
+    code, out, errors = run(bench, *given, '--jobs', 2, '--out', tmp_path / 'each')
+    assert (code, errors) == (1, '')
+    assert 'no_time           not_identified         absent is neither a parameter file' in out
+    report = json.loads((tmp_path / 'each' / 'listed' / 'report.json').read_text(encoding='utf-8'))
+    assert [effect['name'] for effect in report['effects']] == ['coulomb_friction']
+    level = report['effects'][0]['parameters']['level']
+    assert level['value'] == pytest.approx(FRICTION, rel=0.05)
+    assert 'listed            effect_found           held-out error' in out
 
 
 @pytest.mark.slow

@@ -23,7 +23,7 @@ FLOORS = (
         *('pam_ros.cached_property', 'pam_ros.code_cache', 'pam_ros.errors'),
         *('pam_ros.processes', 'pam_ros.timing'),
     ),
-    ('pam_ros.compiled',),
+    ('pam_ros.compiled', 'pam_ros.parallel'),
     ('pam_ros.arguments', 'pam_ros.plain_yaml'),
     ('pam_ros.recording', 'pam_ros.units', 'pam_ros.version'),
     ('pam_ros.parameters',),
@@ -34,7 +34,7 @@ FLOORS = (
     ('pam_ros.control', 'pam_ros.devices', 'pam_ros.identification'),
     ('pam_ros.settings',),
     ('pam_ros.report', 'pam_ros.simulator'),
-    ('pam_ros.bench', 'pam_ros.demo', 'pam_ros.health', 'pam_ros.plot'),
+    ('pam_ros.batch', 'pam_ros.bench', 'pam_ros.demo', 'pam_ros.health', 'pam_ros.plot'),
     ('pam_ros.nodes.common',),
     (
         'pam_ros.nodes.control',
@@ -56,7 +56,8 @@ ROS = {
 }
 # What the other rooms may import in addition to themselves and Python's own library.
 ALLOWED = {
-    *('jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'openpyxl', 'rosbags', 'scipy'),
+    *('distributed', 'jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'openpyxl', 'rosbags'),
+    'scipy',
     *('tqdm', 'yaml'),
     'pam_ros',
 }

@@ -29,7 +29,7 @@ IMPORTED_AS = {
     'python3-yaml': 'yaml',
 }
 # Used where they are, done without where they are not: no rosdep key says that.
-OPTIONAL = {'mcap', 'rviz2'}
+OPTIONAL = {'distributed', 'mcap', 'rviz2'}
 COMMANDS = {'ros2launch'}  # with which users start the launch files
 
 

@@ -42,6 +42,8 @@ from support.pages import (
 # How commands of other programs begin: whether they are right is for their manuals.
 OF_OTHERS = (
     'colcon build',
+    'dask scheduler',
+    'dask worker tcp://',
     'pip install --user --break-system-packages mcap rosbags',
     'python3 examples/own_controller.py',
     'ros2 bag',
@@ -151,8 +153,8 @@ def check_program(name, words):
         check_parameters(name, ros)
     if name == 'pam_identify':
         given = pam_identify.parser().parse_intermixed_args(own)
-        known = not given.params.startswith(('MUSCLE', 'FILE'))
-        if known:
+        # A list of recordings may name the nominal model itself.
+        if given.params and not given.params.startswith(('MUSCLE', 'FILE')):
             nominal_joint(
                 str(ROOT / given.params) if '/' in given.params else given.params, given.set
             )

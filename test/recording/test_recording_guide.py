@@ -28,7 +28,8 @@ def test_the_rules_can_be_understood(tmp_path):
     (tmp_path / 'columns.yaml').write_text(columns)
     assert len(list(read_mapping(file=tmp_path / 'columns.yaml'))) == 2
     (tmp_path / 'recordings.yaml').write_text(recordings)
-    files = recording_files(tmp_path / 'recordings.yaml')
+    files, params = recording_files(tmp_path / 'recordings.yaml')
+    assert params == 'dmsp_20_400n'
     assert [one.numbers for one in files] == [{'mass': 10.0}, {'mass': 20.0}]
 
 

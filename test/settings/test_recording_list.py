@@ -51,14 +51,26 @@ recordings:
 
 def test_numbers_for_all_are_those_of_recordings_without_their_own(folder):
     path = listed(folder, 'recordings: [{file: a, set: {mass: 10}}, {file: b}]')
-    files = recording_files(path, {'mass': 7.0})
+    files, params = recording_files(path, {'mass': 7.0})
+    assert params is None
     assert [one.numbers for one in files] == [{'mass': 10.0}, {'mass': 7.0}]
     assert [one.path for one in files] == [folder / 'a', folder / 'b']
+
+
+@pytest.mark.parametrize('is_file', [True, False])
+def test_a_list_names_its_rig_by_a_file_beside_it_or_by_a_muscle(folder, is_file):
+    if is_file:
+        (folder / 'mas10').touch()
+    path = listed(folder, 'params: mas10\nrecordings: [{file: a}]')
+    _, params = recording_files(path)
+    assert params == (str(folder / 'mas10') if is_file else 'mas10')
 
 
 @pytest.mark.parametrize(
     ('text', 'words'),
     [
+        ('recordings: [{file: light.csv}]\nset: {mass: 3}', "'set' is not known: give recordings"),
+        ('recordings: [{file: light.csv}]\nparams: [a]', "params = ['a'] is not allowed"),
         ('columns: {}', "has no list 'recordings'"),
         ('recordings: []', "has no list 'recordings'"),
         ('recordings: [light.csv]', "recording 1 has no 'file'"),

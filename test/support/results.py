@@ -17,6 +17,7 @@ from pam_ros.recording.recording import Recording
 from pam_ros.report.provenance import provenance
 from pam_ros.rig.arrangements import LOAD
 from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.settings.inputs import Inputs
 from pam_ros.settings.nominal import NominalJoint
 from pam_ros.settings.rig import RigParameters
 
@@ -251,4 +252,5 @@ def source_of(nominal, recordings, test):
     """Return the provenance of a result that was made by hand."""
     joint = NominalJoint(nominal, LOAD, ('muscle',), 'muscle')
     command = 'pam_identify bench.csv --out report'
-    return provenance(joint, PRESET, ('mass=20',), recordings, test, command)
+    inputs = Inputs(PRESET, joint, {}, recordings, test)
+    return provenance(inputs, ('mass=20',), command)

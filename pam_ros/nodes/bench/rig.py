@@ -11,6 +11,7 @@ from rclpy.node import Node
 from std_msgs.msg import Float64
 
 from pam_ros.bench.faults import draw
+from pam_ros.bench.forces import forces_of, left_alone
 from pam_ros.bench.remote_plant import RemotePlant
 from pam_ros.bench.scenario import Scenario
 from pam_ros.bench.trial import Trial
@@ -38,7 +39,8 @@ class BenchRig(Node):
     def __init__(self, scenario: Scenario, seed: int, time_mode: str, context: Context) -> None:
         """Create the rig at rest, with the *seed* of its sensors."""
         super().__init__('pam_sim', context=context)
-        (_, setup), *self._changes = scenario.setups(seed, time_mode)
+        self._setups = scenario.setups(seed, time_mode)
+        (_, setup), *self._changes = self._setups
         self._changes_at = [time for time, _ in self._changes]
         self.setup, self._scenario = setup, scenario
         rate = setup.settings.publish_rate
@@ -152,6 +154,7 @@ class BenchRig(Node):
 
     def trial(self) -> Trial:
         """Return what was recorded of a run that is done."""
+        forces = forces_of(self._setups, self._scenario.duration)
         return Trial(
             self._times,
             self._position,
@@ -162,6 +165,8 @@ class BenchRig(Node):
             np.array(self._changes_at),
             self.setup.joints[0].is_revolute,
             np.array([(one.time, one.end) for one in self._scenario.outages]).reshape(-1, 2),
+            np.array(forces).reshape(-1, 4),
+            left_alone(self._setups, self._count) if forces else np.empty(0),
         )
 
     # What the simulator publishes -----------------------------------------------------------

@@ -136,5 +136,6 @@ def test_outages_and_losses_with_another_clock(domain, monkeypatch, kind, argume
     assert outcome.is_completed, outcome.reason
     assert outcome.is_real_time
     answered = np.flatnonzero(trial.answer > 0.0)
-    assert not ((answered >= 250) & (answered < 500)).any()
+    # The states at the begin and the end of the outage may be on either side of it.
+    assert not ((answered > 251) & (answered < 499)).any()
     assert trial.position[500] < trial.position[250] - 5e-3

@@ -134,6 +134,31 @@ def test_an_interrupted_bench_ends_its_controller_and_writes_nothing(tmp_path):
     assert not (tmp_path / 'found').exists()
 
 
+def test_an_interrupted_bench_goes_on_anywhere(tmp_path):
+    out = tmp_path / 'out'
+    scenario = written(tmp_path, 'short.yaml', SCENARIO)
+    given = [odd('good'), odd('dies'), '--scenario', scenario, '--seeds', '2', '--out', str(out)]
+    program = bench(*given)
+    first = program.stdout.readline()
+    os.killpg(program.pid, signal.SIGINT)
+    output, _ = program.communicate(timeout=60)
+    assert program.returncode == 130, output
+    kept = f'interrupted, 1 of 4 results are kept in {out / "runs.sqlite"}: --resume goes on'
+    assert output.strip() == f'pam_bench: {kept}'
+
+    program = bench(*given, '--resume', '--dask', 'local')
+    output, _ = program.communicate(timeout=300)
+    assert program.returncode == 0, output
+    assert output.startswith(f'1 of 4 runs are taken from {out / "runs.sqlite"}\n')
+    assert first not in output
+    data = json.loads((out / 'bench.json').read_text(encoding='utf-8'))
+    runs = [(run['controller'], run['seed'], run['status']) for run in data['outcomes']]
+    assert runs == [('good', 0, 'completed'), ('good', 1, 'completed')] + [
+        ('dies', seed, 'died') for seed in range(2)
+    ]
+    assert sorted(path.name for path in out.iterdir()) == ['bench.html', 'bench.json']
+
+
 @pytest.mark.parametrize(
     ('arguments', 'sentence'),
     [
@@ -141,6 +166,9 @@ def test_an_interrupted_bench_ends_its_controller_and_writes_nothing(tmp_path):
         (['pid'], '--out is missing: give the folder for the results'),
         (['pid', '--out', 'x', '--seeds', '0'], "'0' is not allowed: give 1 to 1000"),
         (['pid', '--out', 'x', '--domain', '7', '--jobs', '2'], '--domain 7 is not allowed'),
+        (['pid', '--out', 'x', '--jobs', '2', '--dask', 'local'], '--jobs is of this machine'),
+        (['pid', '--out', 'x', '--draw', '2', '--resume'], '--resume needs --seed S with --draw'),
+        (['pid', '--out', 'x', '--dask', 'here:x'], 'here:x is not an address of a scheduler'),
         (['pid', '--out', 'x', '--scenario', 'sinn'], 'scenario sinn does not exist'),
         (['pdi', '--out', 'x'], "'pdi' is not a controller"),
         (
