@@ -3,12 +3,12 @@
 """What many workers bring: overhead a task, two workers against one, and a simulated cluster.
 
 Empty tasks show the overhead of processes of this machine, and of a Dask cluster with a real
-scheduler and workers. Blind trials of the identification are run by one worker and by two; this
-ratio is limited by the cores of the machine. Last, a cluster is *simulated*, which is not
-measured: workers take trials as long as those that were measured, from a scheduler that needs the
-measured overhead for each.
-Options: ``--tasks N`` (default 400 empty ones), ``--trials N`` (default 6), ``--workers N`` and
-``--draws N`` of the simulated cluster (default 100 and 10000).
+scheduler and workers. Simulations of about a second, each on one core, are done by one worker and
+by two. Last, a cluster is *simulated*, which is not measured: workers take blind trials of the
+identification as long as some that are measured here, from a scheduler that needs the measured
+overhead for each.
+Options: ``--tasks N`` (default 400 empty ones), ``--simulations N`` (default 16), ``--workers N``
+and ``--draws N`` of the simulated cluster (default 100 and 10000).
 """
 
 import argparse
@@ -31,15 +31,25 @@ from benchmarks._trials import prepare
 from pam_ros.parallel.cluster import ClusterPool
 from pam_ros.parallel.local import LocalPool
 from pam_ros.parallel.tasks import Failure, Pool, run_tasks
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.simulation import Simulation
 from support.dask_cluster import DaskCluster
 
-KINDS = ('noise_only', 'coulomb_friction', 'payload')
-SEED = 21  # a draw that is known
+KINDS, SEED = ('noise_only', 'coulomb_friction', 'payload'), 21  # trials, a draw that is known
+STEPS = 10_000_000  # of a simulation
 
 
 def nothing(task: int) -> int:
     """Return *task*."""
     return task
+
+
+def simulation(task: int) -> float:
+    """Return the position of a muscle with a load after many steps."""
+    rig = Simulation([Joint((Actuator(),), Mass(mass=20.0))], 1e-3)
+    rig.advance(STEPS)
+    return float(rig.position[0])
 
 
 @contextmanager
@@ -84,27 +94,23 @@ def main() -> None:
     """Measure, simulate, and print the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--tasks', type=int, default=400)
-    parser.add_argument('--trials', type=int, default=6)
+    parser.add_argument('--simulations', type=int, default=16)
     parser.add_argument('--workers', type=int, default=100)
     parser.add_argument('--draws', type=int, default=10_000)
     given = parser.parse_args()
     print(f'{os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}\n')
-    empty = list(range(given.tasks))
-    kinds = [KINDS[k % len(KINDS)] for k in range(given.trials)]
-    trials = [tracing.Job(kind, SEED, 'blind') for kind in kinds]
-    overhead, walls, seconds = {}, {}, []
+    empty, work = list(range(given.tasks)), list(range(given.simulations))
+    overhead, walls = {}, {}
     for workers in (1, 2):
         with dask(workers) as pool:
-            for name, one in (
-                (f'processes, {workers}', LocalPool(workers)),
-                (f'dask, {workers}', pool),
-            ):
-                spent, _ = times_of(nothing, empty, one, [0] * workers)
+            for kind, one in (('processes', LocalPool(workers)), ('dask', pool)):
+                name = f'{kind}, {workers}'
+                spent, _ = times_of(nothing, empty, one, empty[:workers])
                 overhead[name] = spent / given.tasks
-                walls[name], rows = times_of(tracing.run_trial, trials, one, trials[:workers])
-                if workers == 1:
-                    seconds += [row['seconds'] for row in rows]
-    print('| workers | overhead a task, ms | trials, s | of one worker |\n|---|---|---|---|')
+                walls[name], _ = times_of(simulation, work, one, work[:workers])
+    trials = [tracing.Job(kind, SEED, 'blind') for kind in KINDS]
+    seconds = [row['seconds'] for row in times_of(tracing.run_trial, trials, LocalPool(1), [])[1]]
+    print('| workers | overhead a task, ms | simulations, s | of one worker |\n|---|---|---|---|')
     for name, wall in walls.items():
         alone = walls[f'{name.split(",")[0]}, 1']
         print(f'| {name} | {1e3 * overhead[name]:.2f} | {wall:.1f} | {alone / wall:.2f} |')
