@@ -64,8 +64,8 @@ def _rows(
     keys = {key_of(rig, given): rig for rig in rigs}
     out = given.out.resolve()
     found: dict[str, RigRow] = {}
-    for key, row in journal.rows().items():
-        if key in keys and (out / keys[key].name).is_dir():
+    for key, row in journal.rows(keys).items():
+        if (out / keys[key].name).is_dir():
             with journal.refusing_damage():
                 found[key] = row_from(row.content)
     if found:

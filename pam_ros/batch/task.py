@@ -26,8 +26,11 @@ class RigTask:
 def identify_rig(task: RigTask) -> RigRow:
     """Identify a rig and write its report; raises PamError if its recordings cannot be used."""
     rig = task.rig
-    inputs = read_inputs(task.given, ([rig.path], []), ([rig.values], []))
-    source = provenance(inputs, task.given.set, task.command)
+    # What is set before one of several files is the nominal model of this rig alone.
+    own = [*task.given.set, *(f'{name}={value}' for name, value in rig.values.items())]
+    given = argparse.Namespace(**{**vars(task.given), 'set': own})
+    inputs = read_inputs(given, ([rig.path], []), ([{}], []))
+    source = provenance(inputs, own, task.command)
     answer = inputs.identify()
     write_report(task.folder, answer, source)
     return row_of(rig.name, rig.path, answer)

@@ -51,12 +51,11 @@ def kept(journal: Journal, jobs: Mapping[str, Job]) -> Iterator[tuple[Job, Finis
 
     Raises PamError if the file is damaged.
     """
-    for key, row in journal.rows().items():
-        if key in jobs:
-            with journal.refusing_damage():
-                trial = None if row.data is None else _trial(row.data)
-                found = Finished(read_outcome(row.content), trial)
-            yield jobs[key], found
+    for key, row in journal.rows(jobs).items():
+        with journal.refusing_damage():
+            trial = None if row.data is None else _trial(row.data)
+            found = Finished(read_outcome(row.content), trial)
+        yield jobs[key], found
 
 
 def _bytes(trial: Trial) -> bytes:

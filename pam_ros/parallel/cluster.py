@@ -5,7 +5,9 @@
 import pickle
 import sys
 from collections.abc import Iterator, Sequence
+from concurrent.futures import CancelledError
 from contextlib import ExitStack, closing, contextmanager, suppress
+from importlib.util import find_spec
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
@@ -16,6 +18,7 @@ from pam_ros.parallel.sources import digest_of_sources
 from pam_ros.parallel.tasks import Failure, Prepare, Replies
 from pam_ros.parallel.worker import Session, end_session, reply_on_worker
 
+PACKAGE = 'pam_ros'
 LOCAL = 'local'  # instead of an address: a cluster on this machine, for as long as it is needed
 CONNECT = 10.0  # s within which a scheduler must answer
 RECONNECT = 300.0  # s within which a scheduler that was lost must answer again
@@ -91,6 +94,7 @@ class ClusterPool:
 
     def _replies(self, client: Any, calls: dict[int, bytes], prepare: Prepare) -> Replies:
         """Yield the replies of the workers, until all are there or the scheduler is lost."""
+        self._require_package(client)
         ended: SimpleQueue[tuple[int, Any]] = SimpleQueue()
         idle = 0
         with self._submitted(client, calls, prepare) as futures:
@@ -106,9 +110,9 @@ class ClusterPool:
                     if idle == IDLE:
                         _say(f'waits for workers of {self._address}: dask worker starts one')
                     continue
-                if future.status not in ('finished', 'error'):
-                    return
                 reply = self._reply_of(future)
+                if reply is None:
+                    return
                 # Without a future the result is forgotten: it need not be computed again if the
                 # worker that has it is lost.
                 del futures[number], future
@@ -142,17 +146,42 @@ class ClusterPool:
             return bool(client.nthreads())
         return False
 
-    def _reply_of(self, future: Any) -> bytes:
-        """Return the reply of a task that has ended, or a Failure if its workers died."""
-        error = future.exception() if future.status == 'error' else None
+    def _reply_of(self, future: Any) -> bytes | None:
+        """Return the reply of a task that has ended, None if it is lost with the scheduler.
+
+        It is a Failure if its workers died, or could not start it.
+        """
+        try:
+            if future.status == 'finished':
+                return bytes(future.result())
+            error = future.exception() if future.status == 'error' else None
+        except (OSError, CancelledError):
+            error = None
         if error is None:
-            return bytes(future.result())
+            return None
+        if isinstance(error, PamError):
+            raise error
+        if isinstance(error, RuntimeError) and 'deserialization' in str(error):
+            raise PamError(
+                f'the scheduler {self._address} has another version of {PACKAGE} than this '
+                'machine: install the same on all'
+            )
+        reason = f'{type(error).__name__}: {error}'
         if isinstance(error, self._distributed.KilledWorker):
-            count = error.allowed_failures + 1
-            return pickle.dumps(Failure(f'{count} workers of Dask died while they ran it'))
-        if isinstance(error, ModuleNotFoundError):
-            raise PamError(f'a worker of {self._address} lacks the package {error.name}')
-        raise error
+            reason = f'{error.allowed_failures + 1} workers of Dask died while they ran it'
+        return pickle.dumps(Failure(reason))
+
+    def _require_package(self, client: Any) -> None:
+        """Raise PamError if the scheduler or one of its workers lacks this package.
+
+        Dask itself would end such a worker, and the client would wait.
+        """
+        with suppress(OSError, CancelledError):  # if the scheduler is lost
+            found = {'the scheduler': client.run_on_scheduler(find_spec, PACKAGE)}
+            found |= client.run(find_spec, PACKAGE)
+            for where, spec in found.items():
+                if spec is None:
+                    raise PamError(f'{where} of {self._address} lacks {PACKAGE}: install it there')
 
 
 def _say(sentence: str) -> None:

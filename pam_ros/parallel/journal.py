@@ -7,7 +7,7 @@ It is one file of SQLite, which holds each result completely or not at all.
 
 import json
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
@@ -30,7 +30,7 @@ class Row(NamedTuple):
 class Journal:
     """Results by their keys, in a file that is made with the first of them.
 
-    ``count`` is the number of results in the file.
+    ``count`` is the number of results that are of use.
     """
 
     def __init__(self, path: Path, *, is_resumed: bool) -> None:
@@ -44,8 +44,6 @@ class Journal:
         if path.exists():
             with self._refusing():
                 self._open()
-                query = f'SELECT COUNT(*) FROM {NAME}'
-                (self.count,) = self._connected().execute(query).fetchone()
             if not is_resumed:
                 self.close()
                 raise PamError(
@@ -78,13 +76,15 @@ class Journal:
         self.path.unlink(missing_ok=True)
         self.count = 0
 
-    def rows(self) -> dict[str, Row]:
-        """Return the results by their keys; raises PamError if the file is damaged."""
+    def rows(self, keys: Collection[str]) -> dict[str, Row]:
+        """Return the results with one of these *keys*; raises PamError if the file is damaged."""
         if self._connection is None:
             return {}
         with self.refusing_damage():
-            found = self._connection.execute(f'SELECT key, content, data FROM {NAME}').fetchall()
-            return {key: Row(json.loads(content), data) for key, content, data in found}
+            rows = self._connection.execute(f'SELECT key, content, data FROM {NAME}').fetchall()
+            found = {key: Row(json.loads(text), data) for key, text, data in rows if key in keys}
+        self.count = len(found)
+        return found
 
     def add(self, key: str, row: Row) -> None:
         """Store a result; raises PamError if it cannot be written."""

@@ -9,32 +9,33 @@ from pathlib import Path
 
 import pytest
 
-from pam_ros.batch import batch
+from pam_ros.batch import batch, task
 from pam_ros.batch.batch import NOT_ALL, identify_each
-from pam_ros.batch.rigs import rigs_of
+from pam_ros.batch.rigs import Rig, rigs_of
 from pam_ros.batch.row import RigRow
+from pam_ros.batch.task import RigTask
 from pam_ros.cli.pam_identify import parser
 from pam_ros.errors import PamError, RecordingError
 from support.here_pool import HerePool
 
 
-def identified(task):
+def identified(one):
     """Stand in for the identification: the first word of a recording says what becomes of it."""
-    path = Path(task.rig.path)
+    path = Path(one.rig.path)
     done = path.parent / 'done.txt'
     with done.open('a', encoding='utf-8') as file:
-        file.write(f'{task.rig.name}\n')
+        file.write(f'{one.rig.name}\n')
     word = path.read_text(encoding='utf-8')
     if word == 'bad':
         raise RecordingError(f'{path.name} has no time axis')
     if word == 'interrupt':
         raise KeyboardInterrupt
-    task.folder.mkdir(parents=True, exist_ok=True)
+    one.folder.mkdir(parents=True, exist_ok=True)
     report = json.dumps({'schema_version': '2.11', 'verdict': 'effect_found'})
-    (task.folder / 'report.json').write_text(report, encoding='utf-8')
+    (one.folder / 'report.json').write_text(report, encoding='utf-8')
     verdict, effects = ('effect_found', 'hysteresis') if word else ('no_missing_effect', '')
     errors = 5e-3, 6e-4, 5.02e-5, 5e-5
-    return RigRow(task.rig.name, task.rig.path, verdict, effects, 'm', *errors, f'Found {word}.')
+    return RigRow(one.rig.name, one.rig.path, verdict, effects, 'm', *errors, f'Found {word}.')
 
 
 @pytest.fixture
@@ -103,9 +104,31 @@ def test_after_an_interrupt_with_other_options_all_are_identified_again(each):
     with pytest.raises(KeyboardInterrupt, match=r'1 of 2 results are kept in .*rigs.sqlite'):
         run(words)
     assert done(folder) == ['a', 'b']
-    words['b.csv'] = ''
-    assert run(words, '--resume', '--set', 'mass=10') == 0
+    words['b.csv'] = 'interrupt'
+    # What is stored with other options is not kept for these.
+    with pytest.raises(KeyboardInterrupt, match='1 of 2 results are kept'):
+        run(words, '--resume', '--set', 'mass=10')
     assert done(folder) == ['a', 'b']
+    words['b.csv'] = ''
+    assert run(words, '--resume', '--set', 'mass=20') == 0
+    assert done(folder) == ['a', 'b']
+
+
+def test_what_is_set_before_one_of_the_files_is_of_its_rig_alone(tmp_path, monkeypatch):
+    given = parser().parse_args(['a', 'b', '--set', 'zeta=0.2', '--out', 'out'])
+    read = []
+
+    def stop(options, paths, own):
+        read.append((options.set, paths, own))
+        raise RecordingError('is absent')
+
+    monkeypatch.setattr(task, 'read_inputs', stop)
+    for mass in ('10', '20'):
+        one = RigTask(Rig('a', 'a', {'mass': mass}), given, tmp_path, '')
+        with pytest.raises(RecordingError):
+            task.identify_rig(one)
+    assert [sets for sets, *_ in read] == [['zeta=0.2', 'mass=10'], ['zeta=0.2', 'mass=20']]
+    assert read[0][1:] == ((['a'], []), ([{}], []))
 
 
 def test_a_report_that_cannot_be_written_is_found_before_any_work(each):

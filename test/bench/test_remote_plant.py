@@ -17,7 +17,7 @@ RNG = np.random.default_rng(5)
 COMMANDS = HELD + 20e3 * RNG.standard_normal(PERIODS)
 
 
-def setup(**more):
+def setup_of(**more):
     values = {'muscle': 'dmsp_20_400n', 'initial.pressure': HELD, **more}
     scene = Scene(values)
     return scene.build(checked(scene.table(), values))
@@ -41,7 +41,7 @@ def positions(plant):
 
 def expected(arrivals):
     """Return the positions of a plain plant whose commands arrive at these *arrivals* (steps)."""
-    plant, found = Plant(setup()), []
+    plant, found = Plant(setup_of()), []
     for step in range(PERIODS * STEPS + 1):
         plant.advance(step)
         if step % STEPS == 0:
@@ -76,7 +76,7 @@ def without(arrivals, *steps):
     ids=['none', 'delay', 'jitter', 'lost', 'freeze'],
 )
 def test_commands_that_are_lost_or_delayed(given, outages, arrivals):
-    plant = RemotePlant(setup(), given, outages)
+    plant = RemotePlant(setup_of(), given, outages)
     np.testing.assert_array_equal(positions(plant), expected(arrivals))
     plant.begin()
     np.testing.assert_array_equal(positions(plant), expected(arrivals))
@@ -92,7 +92,7 @@ def pressure_at(plant, seconds):
 def test_valves_during_an_outage_and_after_it(kind):
     """They vent at 300 kPa in 2 s from 0.5 s on, or keep their pressure without a time-out."""
     end = () if kind == 'stop' else (1.5,)
-    plant = RemotePlant(setup(vent_time=2.0), faults(), (Outage(kind, 0.5, *end),))
+    plant = RemotePlant(setup_of(vent_time=2.0), faults(), (Outage(kind, 0.5, *end),))
     plant.take((HELD,), (0,))
     assert pressure_at(plant, 0.499) == HELD
     left = HELD if kind == 'freeze' else 0.4 * HELD

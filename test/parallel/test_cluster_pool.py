@@ -110,6 +110,13 @@ def test_workers_must_have_the_same_version(tmp_path, dask, monkeypatch):
         all_replies(ClusterPool(dask.address), [Task(tmp_path, 0)])
 
 
+def test_the_package_must_be_on_all_machines(tmp_path, dask, monkeypatch):
+    dask.start_worker()
+    monkeypatch.setattr(cluster_module, 'PACKAGE', 'absent')
+    with pytest.raises(PamError, match=f'the scheduler of {dask.address} lacks absent'):
+        all_replies(ClusterPool(dask.address), [Task(tmp_path, 0)])
+
+
 def test_without_workers_the_program_waits_and_says_so(tmp_path, dask, monkeypatch, capfd):
     monkeypatch.setattr(cluster_module, 'IDLE', 1)
     said = []
