@@ -46,7 +46,7 @@ def run_all(
     """
     rows: dict[int, dict[str, Any]] = {}
     pool = ClusterPool(given.dask) if given.dask else LocalPool(given.jobs)
-    with closing(run_tasks(run_trial, jobs, pool, prepare)) as results:
+    with closing(run_tasks(run_trial, jobs, pool)) as results:
         for number, row in results:
             if isinstance(row, Failure):
                 print(f'{jobs[number]} could not be run: {row.reason}', flush=True)
@@ -62,10 +62,6 @@ def run_all(
                 flush=True,
             )
     return [rows[number] for number in sorted(rows)]
-
-
-def prepare() -> None:
-    """Prepare a process for trials: nothing is needed."""
 
 
 def shares(names: Iterable[str], groups: Sequence[Sequence[bool]]) -> dict[str, float]:

@@ -27,7 +27,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
 from benchmarks import tracing
-from benchmarks._trials import prepare
 from pam_ros.parallel.cluster import ClusterPool
 from pam_ros.parallel.local import LocalPool
 from pam_ros.parallel.tasks import Failure, Pool, run_tasks
@@ -68,7 +67,7 @@ def times_of(function: Any, tasks: list[Any], pool: Pool, warm: list[Any]) -> tu
     The processes start, and compile, in the warm-up.
     """
     found, begin = [], time.perf_counter()
-    for _, result in run_tasks(function, [*warm, *tasks], pool, prepare):
+    for _, result in run_tasks(function, [*warm, *tasks], pool):
         if isinstance(result, Failure):
             sys.exit(result.reason)
         found.append(result)

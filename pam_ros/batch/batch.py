@@ -38,7 +38,7 @@ def identify_each(given: argparse.Namespace, command: str, pool: Pool) -> int:
     check_parent(out / TABLE)
     for rig in rigs:
         check_folder(out / rig.name)
-    with Journal(out / JOURNAL, is_resumed=given.resume) as journal:
+    with closing(Journal(out / JOURNAL, is_resumed=given.resume)) as journal:
         with journal.telling_what_is_kept(len(rigs)):
             rows = _rows(rigs, given, command, pool, journal)
             date = datetime.now(timezone.utc).isoformat(timespec='seconds')
@@ -75,7 +75,7 @@ def _rows(
     tasks = [RigTask(keys[key], options, out / keys[key].name, command) for key in rest]
     with (
         tqdm(total=len(rest), disable=not sys.stderr.isatty(), leave=False, unit='rig') as bar,
-        closing(run_tasks(identify_rig, tasks, pool, _prepare)) as results,
+        closing(run_tasks(identify_rig, tasks, pool)) as results,
     ):
         for number, result in results:
             key, rig = rest[number], keys[rest[number]]
@@ -88,10 +88,6 @@ def _rows(
             sys.stdout.flush()
             bar.update()
     return [found[key] for key in keys]
-
-
-def _prepare() -> None:
-    """Prepare a process: nothing is needed."""
 
 
 def _options(given: argparse.Namespace) -> argparse.Namespace:

@@ -55,7 +55,7 @@ def perform(
     check_parent(given.out / RESULTS)  # before hours of runs
     source = provenance(shlex.join(sys.orig_argv), {one.name: one.file for one in scenarios})
     jobs = jobs_of(scenarios, controllers, seeds)
-    with Journal(given.out / JOURNAL, is_resumed=given.resume) as journal:
+    with closing(Journal(given.out / JOURNAL, is_resumed=given.resume)) as journal:
         with journal.telling_what_is_kept(len(jobs)):
             runs = _Runs(jobs, scores)
             runs.perform(run, pool, given.domain, journal)

@@ -10,7 +10,6 @@ import sqlite3
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import TracebackType
 from typing import Any, NamedTuple
 
 from pam_ros.errors import PamError
@@ -50,19 +49,6 @@ class Journal:
                     f'{path} has results of a command that was interrupted: give --resume to go '
                     'on with it, or remove the file'
                 )
-
-    def __enter__(self) -> 'Journal':
-        """Return the journal."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Close the file."""
-        self.close()
 
     def close(self) -> None:
         """Close the file."""

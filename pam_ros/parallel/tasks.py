@@ -38,8 +38,12 @@ class Pool(Protocol):
         ...
 
 
+def _nothing() -> None:
+    """Prepare nothing."""
+
+
 def run_tasks(
-    function: Callable[[T], R], tasks: Sequence[T], pool: Pool, prepare: Prepare
+    function: Callable[[T], R], tasks: Sequence[T], pool: Pool, prepare: Prepare = _nothing
 ) -> Generator[tuple[int, R | Failure], None, None]:
     """Yield the number of each task once, and function(task) or why there is none, as they end.
 

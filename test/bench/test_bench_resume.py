@@ -6,6 +6,7 @@ import json
 import re
 import sqlite3
 from argparse import Namespace
+from contextlib import closing
 
 import pytest
 import yaml
@@ -114,7 +115,7 @@ def test_nothing_is_lost_without_resume(bench):
     with pytest.raises(PamError, match=r'runs.sqlite has results of a command .* --resume'):
         run('pid')
     with (
-        Journal(journal, is_resumed=True),
+        closing(Journal(journal, is_resumed=True)),
         pytest.raises(PamError, match=r'runs.sqlite is in use by another program'),
     ):
         run('pid', resume=True)

@@ -18,7 +18,6 @@ from support.tasks import (
     all_replies,
     expected,
     noted,
-    prepare,
     refuse,
     wait_until,
     work,
@@ -60,7 +59,7 @@ def test_each_task_has_a_result_or_a_reason_and_the_same_as_anywhere(tmp_path, d
 def test_a_worker_that_is_killed_loses_nothing(tmp_path, dask):
     first = dask.start_worker()
     tasks = [Task(tmp_path, number, seconds=0.5 * (number > 0)) for number in range(5)]
-    running = run_tasks(work, tasks, ClusterPool(dask.address), prepare)
+    running = run_tasks(work, tasks, ClusterPool(dask.address))
     found = dict([next(running)])
     wait_until(lambda: len(noted(tmp_path, 'begun')) > len(noted(tmp_path, 'ended')))
     kill(first)
@@ -79,7 +78,7 @@ def test_a_worker_that_is_killed_loses_nothing(tmp_path, dask):
 def test_a_scheduler_that_is_restarted_loses_nothing(tmp_path, dask, capfd):
     worker = dask.start_worker()
     tasks = [Task(tmp_path, number, seconds=0.2 * (number > 0)) for number in range(4)]
-    running = run_tasks(work, tasks, ClusterPool(dask.address), prepare)
+    running = run_tasks(work, tasks, ClusterPool(dask.address))
     found = dict([next(running)])
     kill(dask.scheduler)
     kill(worker)
@@ -96,7 +95,7 @@ def test_a_scheduler_that_is_restarted_loses_nothing(tmp_path, dask, capfd):
 def test_the_end_of_the_iterator_interrupts_what_runs(tmp_path, dask):
     dask.start_worker()
     tasks = [Task(tmp_path, 0), *(Task(tmp_path, k, seconds=600.0) for k in (1, 2))]
-    with closing(run_tasks(work, tasks, ClusterPool(dask.address), prepare)) as running:
+    with closing(run_tasks(work, tasks, ClusterPool(dask.address))) as running:
         next(running)
         wait_until(lambda: len(noted(tmp_path, 'begun')) == 2)
     wait_until(lambda: noted(tmp_path, 'interrupted').total() == 1)

@@ -19,7 +19,6 @@ from support.tasks import (
     exists,
     expected,
     noted,
-    prepare,
     refuse,
     wait_until,
     work,
@@ -41,7 +40,7 @@ def test_each_task_has_a_result_or_a_reason(tmp_path, processes, capfd):
 
 def test_tasks_run_side_by_side(tmp_path):
     tasks = [Task(tmp_path, number, seconds=1.0) for number in range(2)]
-    running = run_tasks(work, tasks, LocalPool(2), prepare)
+    running = run_tasks(work, tasks, LocalPool(2))
     next(running)
     assert noted(tmp_path, 'begun') == {0: 1, 1: 1}
     assert len(list(running)) == 1
@@ -55,7 +54,7 @@ def test_no_task_runs_in_a_process_that_cannot_be_prepared(tmp_path):
 
 def test_the_end_of_the_iterator_interrupts_what_runs(tmp_path):
     tasks = [Task(tmp_path, 0), *(Task(tmp_path, k, seconds=600.0) for k in (1, 2, 3))]
-    with closing(run_tasks(work, tasks, LocalPool(2), prepare)) as running:
+    with closing(run_tasks(work, tasks, LocalPool(2))) as running:
         assert next(running)[0] == 0
         wait_until(lambda: len(noted(tmp_path, 'begun')) == 3)
     assert noted(tmp_path, 'interrupted') == {1: 1, 2: 1}

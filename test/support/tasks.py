@@ -24,10 +24,6 @@ class Task(NamedTuple):
     seconds: float = 0.0
 
 
-def prepare() -> None:
-    """Prepare nothing."""
-
-
 def refuse() -> None:
     """Refuse to be prepared."""
     raise PamError('no domain is free')
@@ -70,10 +66,10 @@ def count(task: Task, what: str) -> int:
     return noted(task.folder, what)[task.number]
 
 
-def all_replies(pool, tasks, first=prepare):
+def all_replies(pool, tasks, *prepare):
     """Return the result of each task, which the pool must yield once."""
     found = {}
-    for number, result in run_tasks(work, tasks, pool, first):
+    for number, result in run_tasks(work, tasks, pool, *prepare):
         assert number not in found
         found[number] = result
     assert sorted(found) == list(range(len(tasks)))
