@@ -16,8 +16,7 @@ from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.rest.gain_reduction import GainReduction, ReductionTuning
-from pam_ros.control.rest.oscillation import OscillationTuning
+from pam_ros.control.rest.gain_reduction import Cause, GainReduction, ReductionTuning
 from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 from pam_ros.control.rest.standstill import Standstill, StandstillTuning
 from pam_ros.control.signals import Pressures, Reference
@@ -95,7 +94,7 @@ class Estimates:
             lag_is_configured=self._is_lag_configured,
         )
         self.standstill = Standstill(gains.rest_tolerance, scale.of(StandstillTuning()))
-        self.rejection = Rejection(gains, RejectionTuning(), OscillationTuning())
+        self.rejection = Rejection(gains, RejectionTuning())
         self.reduction = GainReduction(ReductionTuning())
 
     def set_gains(self, gains: Gains) -> None:
@@ -168,7 +167,7 @@ class Estimates:
         scale *= share
         rejection = self.rejection
         moves = self.standstill.is_moving or stiffens
-        rejection.see(dt, error, position, moves=moves, is_cut=is_saturated)
+        rejection.see(dt, error, position, moves=moves, quiet=self.reduction.quiet)
         waited = self._waited
         if position is not None:
             observer.correct(
@@ -205,24 +204,45 @@ class Estimates:
         velocity: float | None,
         chambers: Pressures,
         learned_stiffness: float,
+        *,
+        is_saturated: bool,
     ) -> Feedback:
         """Return the surface at the *reference* and the error; detect a loop that oscillates."""
-        model, observer, rejection = self._model, self.observer, self.rejection
+        model, observer = self._model, self.observer
         s, v = reference.position, reference.velocity
         k = model.stiffness(chambers, s) + model.gravity_stiffness(s)
         c = model.damping(chambers, s, v)
         # Muscles have no negative stiffness: a learned one that gives it is wrong.
         stiffness = max(k + learned_stiffness, min(k, 0.0))
         square, decay = self._surface_at(stiffness, c)
-        if rejection.level == 0.0 or rejection.is_least:
-            # Before that, an oscillation lowers the highest level of the rejection.
-            bandwidth, least = sqrt(square), rejection.least_error
-            if self.reduction.see(dt, rejection.error, v, least, bandwidth):
-                self.learner.forget()
+        self._see_oscillation(dt, v, sqrt(square), is_saturated=is_saturated)
         if velocity is None or not self.gains.use_measured_velocity:
             velocity = observer.velocity
         error = s - observer.position
         return Feedback(square, decay, k, stiffness, c, error, v - velocity, velocity)
+
+    def _see_oscillation(
+        self, dt: float, speed: float, bandwidth: float, *, is_saturated: bool
+    ) -> None:
+        """Detect a loop of this *bandwidth* that oscillates, and reduce what makes it do so."""
+        rejection = self.rejection
+        rejects = rejection.level > 0.0 and not rejection.is_least
+        if rejects:
+            bandwidth = max(self.gains.rejection_surface, bandwidth)
+        cause = self.reduction.see(
+            dt,
+            rejection.error,
+            speed,
+            rejection.least_error,
+            bandwidth,
+            suspect=Cause.LEVEL if rejects else Cause.SHARE,
+            is_cut=rejects and is_saturated,
+            is_disturbed=rejection.level > 0.0,
+        )
+        if cause is Cause.LEVEL:
+            rejection.lower()
+        elif cause is Cause.SHARE:
+            self.learner.forget()
 
     def _surface_at(self, k: float, c: float) -> tuple[float, float]:
         """Return w^2 and 2 z w for the stiffness *k* and the damping *c* of the joint."""

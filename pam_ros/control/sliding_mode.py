@@ -188,7 +188,14 @@ class SlidingMode(JointLaw):
             dt, reference, position, age, stiffens=stiffens, is_saturated=terms.saturated
         )
         learned = estimates.learned_force(dt, reference)
-        feedback = estimates.feedback(dt, reference, velocity, chambers, learned.stiffness)
+        feedback = estimates.feedback(
+            dt,
+            reference,
+            velocity,
+            chambers,
+            learned.stiffness,
+            is_saturated=terms.saturated,
+        )
         wanted = self._wanted_effort(dt, reference, chambers, bandwidth, learned, feedback)
         effort = self._push(dt, reference.position - seen, bandwidth, wanted.effort)
         cut = self._command(dt, reference.position, effort, wanted)

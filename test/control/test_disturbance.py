@@ -62,6 +62,23 @@ def test_a_push_moves_the_load_many_times_less_than_at_a_held_pressure(frequency
     assert ratio > (0.67 * least if lag else least)
 
 
+# The natural frequencies of these loads, from 2.4 to 4 Hz, are below and above that of the force.
+@pytest.mark.parametrize(('mass', 'p0'), [(27.0, 231e3), (25.0, 330e3), (16.0, 320e3)])
+def test_a_force_that_begins_before_a_motion_is_rejected_after_it(mass, p0):
+    """While the reference moves, it looks like an oscillation of the loop."""
+    push = sine(8.0, 3.0)
+
+    def back_and_forth(t):
+        return 0.01 if 2.0 <= t < 5.0 else 0.0
+
+    law = SlidingMode(nominal(mass=mass))
+    plant = truth('nominal', mass=mass, p0=p0, seed=7)
+    run = close_loop(law, plant, back_and_forth, 14.0, push=push)
+    alone = left_alone(truth('nominal', mass=mass, p0=p0), push)
+    assert swing(run, 4.0) < alone / 4.0
+    assert law.terms.feedback > 0.9
+
+
 @pytest.mark.parametrize('frequency', [4.0, 6.0, 10.0, 15.0, 20.0])
 def test_no_quick_push_is_made_much_larger(frequency):
     push = sine(8.0, frequency)

@@ -12,6 +12,8 @@ from pam_ros.control.learning.features import FeatureTuning
 from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.pressure_path import PathTuning
 from pam_ros.control.reference.shaping import StreamTuning
+from pam_ros.control.rest.cause import CauseTuning
+from pam_ros.control.rest.gain_reduction import ReductionTuning
 from pam_ros.control.rest.oscillation import OscillationTuning
 from pam_ros.control.rest.rejection import RejectionTuning
 from pam_ros.control.rest.standstill import StandstillTuning
@@ -21,6 +23,7 @@ from pam_ros.control.tuning import JointScale, number, numbers_of
 from pam_ros.sizes import Sizes
 
 TUNINGS = [
+    CauseTuning,
     EstimateTuning,
     FeatureTuning,
     LawTuning,
@@ -28,6 +31,7 @@ TUNINGS = [
     OrderTuning,
     OscillationTuning,
     PathTuning,
+    ReductionTuning,
     RejectionTuning,
     StandstillTuning,
     StictionTuning,

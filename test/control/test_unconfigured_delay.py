@@ -54,6 +54,16 @@ def test_light_and_heavy_loads_come_to_rest(mass):
 
 
 @pytest.mark.slow
+def test_a_lightly_damped_load_comes_to_rest():
+    """With a low share, the level of a disturbance makes slow swings grow."""
+    law = SlidingMode(nominal(mass=27.0))
+    plant = ONE.truth('dead time', mass=27.0, zeta=0.09, p0=230e3, seed=6)
+    run = ONE.close(law, plant, ONE.step, 14.0)
+    assert largest(ONE, run, 4.0, 10.0) < 8.0
+    assert largest(ONE, run, 12.0, 2.0) < 0.05
+
+
+@pytest.mark.slow
 def test_a_push_that_makes_the_loop_oscillate_is_overcome():
     """At rest the loop is slow enough; the level of a disturbance makes it unstable."""
     law = law_of(ONE)

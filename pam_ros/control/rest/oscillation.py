@@ -5,15 +5,18 @@
 A delay that the model does not have makes a fast loop oscillate at about its own bandwidth, with
 an amplitude that does not fall. A disturbance from outside is slower, or its response decays. So
 the error is divided into swings from one reversal to the next, as in rainflow counting. Successive
-swings that are quick and do not fall are an oscillation. Stability observers of haptic devices
-detect the same in windows of the spectrum (Ryu, Song, Kang & Kim 2008), which takes several
-periods; this method takes one and a half.
+swings that are quick and do not fall are an oscillation, and so are slow ones that grow by a
+constant factor over some periods, as those of an unstable loop do until a limit is reached.
+Stability observers of haptic devices detect the same in windows of the spectrum (Ryu, Song, Kang &
+Kim 2008), which takes several periods; this method takes one and a half for quick swings.
 """
 
 from dataclasses import dataclass
-from math import inf, pi
+from math import pi, sqrt
 
 from pam_ros.control.tuning import number
+
+MEMORY = 8  # swings: four periods
 
 
 @dataclass(frozen=True)
@@ -31,8 +34,19 @@ class OscillationTuning:
         'unconfigured lag of 50/70 ms in the benchmark disturbance, swings are 1.1 to 1.3 times '
         'as quick as the loop',
     )
+    grown: float = number(
+        2.0,
+        '',
+        'least growth of slow swings in two or in four periods, with at least its square root in '
+        'the later half: the response to a disturbance that begins grows less and less',
+    )
+    rising: float = number(1.2, '', 'least growth in two periods of swings that rise')
     quickest: float = number(
-        inf, '', 'times the bandwidth of the loop: quicker swings are not those of the loop'
+        4.5,
+        '',
+        'times the bandwidth of the loop: quicker swings are not those of the loop; a load that '
+        'bounces on a stop has 7 to 15 times, a loop with a dead time of 30 to 80 ms 0.9 to 2.9 '
+        'times (tests test_sliding_mode and test_unconfigured_delay)',
     )
 
 
@@ -40,22 +54,33 @@ class Oscillation:
     """Watches the error of a loop.
 
     quiet
-        time since the last swing of an oscillation, s
+        time since the last quick swing that may be one of an oscillation, s
+    swing, count
+        size of the last swing of any kind, and how many there were
+    has_grown
+        whether the swings until the last one grew by a constant factor
     """
 
     def __init__(self, tuning: OscillationTuning) -> None:
-        """Begin at the error 0; see :meth:`start`."""
+        """Begin without an error."""
         self._tuning = tuning
-        self.start(0.0)
+        self.start()
 
-    def start(self, error: float) -> None:
-        """Start again at this *error*, without swings."""
+    @property
+    def is_rising(self) -> bool:
+        """Whether the swings rise, over two periods."""
+        before = self._before
+        return len(before) > 4 and before[-1] > self._tuning.rising * before[-5]
+
+    def start(self) -> None:
+        """Begin again without an error."""
         self.quiet = 0.0
         self._side = 1.0  # direction of the present swing
-        self._turned = self._extreme = error  # error at the last reversal, and the extreme since
+        self._turned = self._extreme = 0.0  # error at the last reversal, and the extreme since
         self._lasted = self._reached = 0.0  # time since the reversal: now, and at the extreme
-        self._was_cut = False
-        self._swings, self._swing = 0, 0.0
+        self._was_cut = self.has_grown = False
+        self._swings, self.swing, self.count = 0, 0.0, 0
+        self._before: list[float] = []  # the last swings in turn that did not fall
 
     def see(
         self, dt: float, error: float, least: float, bandwidth: float, *, is_cut: bool
@@ -82,17 +107,28 @@ class Oscillation:
         swing, lasted = abs(self._extreme - self._turned), self._reached
         longest, shortest = pi / (tuning.quick * bandwidth), pi / (tuning.quickest * bandwidth)
         is_quick = shortest <= lasted and (self._was_cut or lasted < longest)
-        lasts = swing >= max(least, tuning.lasting * self._swing)
+        lasts = swing >= max(least, tuning.lasting * self.swing)
+        self._before = [*self._before[-MEMORY:], swing] if lasts else []
+        self.has_grown = shortest <= lasted and self._has_grown()
         self._turned, self._extreme = self._extreme, error
         self._lasted -= self._reached
         self._reached, self._was_cut = self._lasted, False
-        self._side, self._swing = -self._side, swing
-        if not (is_quick and lasts):
-            self._swings = 0
+        self._side, self.swing = -self._side, swing
+        self.count += 1
+        self._swings = self._swings + 1 if is_quick and lasts else 0
+        if self._swings > 0:
+            self.quiet = 0.0
+        if self._swings < tuning.swings and not self.has_grown:
             return False
-        self.quiet = 0.0
-        self._swings += 1
-        if self._swings < tuning.swings:
-            return False
-        self._swings = 0
+        self._swings, self.quiet = 0, 0.0
         return True
+
+    def _has_grown(self) -> bool:
+        """Return whether the swings grow exponentially over two or over four periods."""
+        before, grown = self._before, self._tuning.grown
+        return any(
+            len(before) > n
+            and before[-1] >= grown * before[-1 - n]
+            and before[-1] >= sqrt(grown) * before[-1 - n // 2]
+            for n in (MEMORY // 2, MEMORY)
+        )

@@ -10,9 +10,9 @@ firmly as the gains allow. It rises at once with the error of a load that should
 slowly when the error has gone.
 
 The level is limited by the delay between a command and its force, which may be unknown. If the
-level is too high for this delay, the loop oscillates (:mod:`.oscillation`). That lowers the
-highest level. While the load is disturbed without such an oscillation, the highest level rises
-again, to below the level of the last oscillation.
+level is too high for this delay, the loop oscillates. Then the highest level is lowered
+(:mod:`.gain_reduction`). While the load is disturbed without such an oscillation, the highest
+level rises again, to below the level of the last oscillation.
 
 After a motion of the reference the error is at first that of friction and hysteresis, which
 :mod:`.standstill` and :mod:`.stiction` remove. The level begins to act when the error has been
@@ -24,7 +24,6 @@ from dataclasses import dataclass
 from math import copysign, exp, log, sqrt
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.rest.oscillation import Oscillation, OscillationTuning
 from pam_ros.control.tuning import number
 
 
@@ -91,12 +90,9 @@ class Rejection:
     Errors and positions are in m, or in rad for a revolute joint.
     """
 
-    def __init__(
-        self, gains: Gains, tuning: RejectionTuning, oscillation: OscillationTuning
-    ) -> None:
+    def __init__(self, gains: Gains, tuning: RejectionTuning) -> None:
         """Start at rest."""
         self.gains, self._tuning = gains, tuning
-        self._oscillation = Oscillation(oscillation)
         self.start()
 
     def set_gains(self, gains: Gains) -> None:
@@ -142,12 +138,12 @@ class Rejection:
         return calm if self.level == 0.0 else calm * (full / calm) ** self.level
 
     def see(
-        self, dt: float, error: float, measured: float | None, *, moves: bool, is_cut: bool
+        self, dt: float, error: float, measured: float | None, *, moves: bool, quiet: float
     ) -> None:
         """Take in the *error* for *dt* s.
 
         *measured* is the position if there is a new one, *moves* whether the reference or the set
-        stiffness moves, and *is_cut* whether a limit cuts the command.
+        stiffness moves, and *quiet* for how long there has been no sign of an oscillation, s.
         """
         tuning = self._tuning
         if measured is not None:
@@ -162,14 +158,16 @@ class Rejection:
         if not self._acts:
             self._see_rest(dt, least)
             return
-        self._follow(dt, abs(self.error) / least)
-        surface = self.gains.rejection_surface
-        if self._oscillation.see(dt, self.error, least, surface, is_cut=is_cut):
-            self._bound = max(tuning.below * self.highest, tuning.least)
-            self.highest = max(tuning.lower * self.highest, tuning.least)
-            self.level = min(self.level, self.highest)
+        self._follow(dt, abs(self.error) / least, quiet)
 
-    def _follow(self, dt: float, size: float) -> None:
+    def lower(self) -> None:
+        """Lower the highest level, at which the loop oscillates."""
+        tuning = self._tuning
+        self._bound = max(tuning.below * self.highest, tuning.least)
+        self.highest = max(tuning.lower * self.highest, tuning.least)
+        self.level = min(self.level, self.highest)
+
+    def _follow(self, dt: float, size: float, quiet: float) -> None:
         """Adapt the levels to an error of *size* times the least error of a disturbance."""
         tuning = self._tuning
         wanted = self.highest * min(max((size - 1.0) / (tuning.full - 1.0), 0.0), 1.0)
@@ -181,7 +179,7 @@ class Rejection:
                 self.level = 0.0
         self._bound = min(self._bound + tuning.forget * dt, 1.0)
         is_used = self.level > 0.5 * self.highest
-        if is_used and self._oscillation.quiet > tuning.quiet and self.highest < self._bound:
+        if is_used and quiet > tuning.quiet and self.highest < self._bound:
             self.highest = min(self.highest + tuning.climb * dt, self._bound)
 
     def _see_noise(self, dt: float, measured: float) -> None:
@@ -201,7 +199,6 @@ class Rejection:
         self.level, self._acts = 0.0, False
         self._calm = self._moving = self._direction = 0.0
         self._place = self.error
-        self._oscillation.start(self.error)
 
     def _see_rest(self, dt: float, least: float) -> None:
         """Find out whether the motion has ended, or the load is shaken."""

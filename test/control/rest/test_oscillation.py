@@ -28,7 +28,7 @@ def sine(frequency, amplitude=1e-4):
     return lambda t: amplitude * math.sin(frequency * t)
 
 
-@pytest.mark.parametrize('ratio', [1.05, 1.5, 3.0])
+@pytest.mark.parametrize('ratio', [1.05, 1.5, 2.2])
 def test_a_quick_sine_is_found_at_the_third_turn(ratio):
     times = found(sine(ratio * QUICK))
     # The third turn ends the third swing; it is seen when the error has come back by LEAST.
@@ -74,5 +74,38 @@ def test_how_long_there_was_none():
     for n in range(1000):
         oscillation.see(DT, sine(1.5 * QUICK)(n * DT), LEAST, BANDWIDTH, is_cut=False)
     assert oscillation.quiet < math.pi / (1.5 * QUICK) + 2 * DT
-    oscillation.start(0.0)
+    oscillation.start()
     assert oscillation.quiet == 0.0
+
+
+@pytest.mark.parametrize('growth', [1.1, 1.2, 1.5])
+def test_slow_swings_that_grow_without_end_are_found(growth):
+    """Each swing is *growth* times the one before, as those of an unstable loop."""
+    w = 0.4 * QUICK
+    times = found(lambda t: 1e-4 * growth ** (w * t / math.pi) * math.sin(w * t), 6.0)
+    assert times
+    assert times[0] * w / math.pi < (5.5 if growth > 1.2 else 12.0)
+
+
+def test_a_response_to_a_slow_force_that_begins_is_none():
+    w, damping = 0.6 * QUICK, 0.15
+
+    def response(t):
+        return 1e-3 * (1.0 - math.exp(-damping * w * t)) * math.sin(w * t)
+
+    assert not found(response, 10.0)
+
+
+def test_whether_swings_rise():
+    for growth, rises in ((1.0, False), (1.03, False), (1.07, True)):
+        oscillation, w = Oscillation(TUNING), 0.4 * QUICK
+        for n in range(round(4.0 / DT)):
+            t = n * DT
+            error = 1e-3 * growth ** (w * t / math.pi) * math.sin(w * t)
+            oscillation.see(DT, error, LEAST, BANDWIDTH, is_cut=False)
+        assert oscillation.is_rising is rises
+
+
+def test_much_quicker_swings_are_not_those_of_the_loop():
+    assert found(sine(0.9 * TUNING.quickest * BANDWIDTH))
+    assert not found(sine(1.2 * TUNING.quickest * BANDWIDTH))

@@ -9,28 +9,27 @@ import numpy as np
 import pytest
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.rest.oscillation import OscillationTuning
 from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 
 DT = 2e-3
 GAINS, TUNING = Gains(), RejectionTuning()
 LEAST = TUNING.tolerances * GAINS.rest_tolerance  # m
 LARGE = 3.0 * LEAST
-FIRST = Rejection(GAINS, TUNING, OscillationTuning()).highest
+FIRST = Rejection(GAINS, TUNING).highest
 
 
 def rejection(**tuning):
     """Return one that knows the noise of a noiseless position."""
-    one = Rejection(GAINS, replace(TUNING, **tuning), OscillationTuning())
+    one = Rejection(GAINS, replace(TUNING, **tuning))
     follow(one, constant(0.0), TUNING.known * DT)
     return one
 
 
-def follow(one, error, seconds, moves=False, measured=lambda t: 0.0, cut=False):
+def follow(one, error, seconds, moves=False, measured=lambda t: 0.0, quiet=math.inf):
     """Let it see an *error* (s -> m); return the levels."""
     levels = []
     for n in range(round(seconds / DT)):
-        one.see(DT, error(n * DT), measured(n * DT), moves=moves, is_cut=cut)
+        one.see(DT, error(n * DT), measured(n * DT), moves=moves, quiet=quiet)
         levels.append(one.level)
     return np.array(levels)
 
@@ -42,12 +41,12 @@ def constant(error):
 def test_the_first_highest_level_is_a_bandwidth_of_the_observer():
     assert pytest.approx(TUNING.first) == 4.0 * 25.0**FIRST
     assert pytest.approx(0.35, abs=0.01) == FIRST
-    revolute = Rejection(Gains(observer_bandwidth=8.0), TUNING, OscillationTuning())
+    revolute = Rejection(Gains(observer_bandwidth=8.0), TUNING)
     assert 8.0 * 12.5**revolute.highest == pytest.approx(TUNING.first)
     for own, highest in ((14.0, TUNING.least), (12.0, TUNING.least)):
-        one = Rejection(Gains(observer_bandwidth=own), TUNING, OscillationTuning())
+        one = Rejection(Gains(observer_bandwidth=own), TUNING)
         assert one.highest == highest
-    slow = Rejection(Gains(rejection_bandwidth=3.0), TUNING, OscillationTuning())
+    slow = Rejection(Gains(rejection_bandwidth=3.0), TUNING)
     assert slow.highest == 1.0
 
 
@@ -80,7 +79,7 @@ def test_between_is_logarithmic():
 
 def test_the_highest_level_rises_while_it_is_used_and_not_else():
     one = rejection()
-    follow(one, constant(LARGE), TUNING.quiet + 1.0)
+    follow(one, constant(LARGE), 1.0)
     assert one.highest == pytest.approx(FIRST + TUNING.climb, abs=0.01)
     follow(one, constant(LARGE), 4.0)
     assert one.highest == one.level == 1.0
@@ -89,19 +88,17 @@ def test_the_highest_level_rises_while_it_is_used_and_not_else():
     assert one.highest == FIRST
 
 
-def test_an_oscillation_lowers_it_and_is_remembered():
+def test_while_the_loop_may_oscillate_it_does_not_rise():
+    one = rejection()
+    follow(one, constant(LARGE), 5.0, quiet=TUNING.quiet)
+    assert one.highest == one.level == FIRST
+
+
+def test_after_an_oscillation_it_is_lower_and_rises_slowly():
     one = rejection()
     follow(one, constant(LARGE), 10.0)
     assert one.level == 1.0
-
-    def oscillation(t):
-        return LARGE + 5.0 * LEAST * math.sin(1.2 * GAINS.rejection_surface * t)
-
-    seconds = 0.0
-    while one.highest == 1.0:
-        follow(one, lambda t, at=seconds: oscillation(at + t), DT)
-        seconds += DT
-        assert seconds < 1.0
+    one.lower()
     assert one.highest == one.level == TUNING.lower
     # It rises again to below the level of the oscillation, and only slowly beyond.
     follow(one, constant(LARGE), 3.0)
@@ -113,8 +110,10 @@ def test_an_oscillation_lowers_it_and_is_remembered():
 
 def test_it_is_never_lowered_to_nothing():
     one = rejection()
-    follow(one, lambda t: 0.01 * math.sin(50.0 * t), 10.0)
-    assert TUNING.least <= one.highest < 0.2
+    for _ in range(10):
+        one.lower()
+    assert one.highest == TUNING.least
+    assert one.is_least
 
 
 def test_while_the_reference_moves_and_without_the_gain_it_is_0():
@@ -158,7 +157,7 @@ def test_after_a_motion_a_shaken_load_is_rejected_and_one_that_sticks_and_slips_
 @pytest.mark.parametrize('noise', [20e-6, 1e-4, 1e-3])
 def test_the_noise_is_measured_and_is_no_disturbance(noise):
     drawn = noise * np.random.default_rng(1).standard_normal(20_000)
-    one = Rejection(GAINS, TUNING, OscillationTuning())
+    one = Rejection(GAINS, TUNING)
 
     def place(t):
         # A load that swings by 20 mm, in addition to the noise.
@@ -181,4 +180,4 @@ def test_a_start_resets_it():
     follow(one, constant(LARGE), 0.9 * TUNING.known * DT)
     assert one.level == 0.0  # until the noise is known
     follow(one, constant(LARGE), 0.1)
-    assert one.level == FIRST
+    assert one.level == pytest.approx(FIRST, abs=0.1 * TUNING.climb + 1e-3)
