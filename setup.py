@@ -11,6 +11,7 @@ PACKAGE = 'pam_ros'
 # Each program is the module of its name in pam_ros/cli/, with a function main().
 PROGRAMS = [
     'pam_bench',
+    'pam_command',
     'pam_control',
     'pam_demo',
     'pam_excite',

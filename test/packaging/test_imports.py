@@ -34,9 +34,13 @@ FLOORS = (
     ('pam_ros.control', 'pam_ros.devices', 'pam_ros.identification'),
     ('pam_ros.settings',),
     ('pam_ros.report', 'pam_ros.simulator'),
-    ('pam_ros.batch', 'pam_ros.bench', 'pam_ros.demo', 'pam_ros.health', 'pam_ros.plot'),
+    (
+        *('pam_ros.batch', 'pam_ros.bench', 'pam_ros.command', 'pam_ros.demo'),
+        *('pam_ros.health', 'pam_ros.plot'),
+    ),
     ('pam_ros.nodes.common',),
     (
+        'pam_ros.nodes.command',
         'pam_ros.nodes.control',
         'pam_ros.nodes.demo',
         'pam_ros.nodes.excite',

@@ -8,7 +8,7 @@ from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.simulation import Simulation
 
-for name in ('sim', 'control', 'excite', 'record'):
+for name in ('sim', 'control', 'excite', 'record', 'command'):
     import_module(f'pam_ros.cli.pam_{name}')
     import_module(f'pam_ros.nodes.{name}.node')
 

@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of a node as a text, for users who do not have ``ros2 param describe``."""
 
+from typing import Any
+
 import yaml
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
 from pam_ros.errors import ParameterError
@@ -17,17 +20,31 @@ def parameter_list(node: Node, part: str) -> str:
     and range. Raises ParameterError if no name contains *part*.
     """
     values = {name: p.value for name, p in node.get_parameters_by_prefix('').items()}
-    names = [name for name in values if part in name and (part or not name.startswith(OF_ROS))]
+    names = [name for name in values if part in name and (part or not is_of_ros(name))]
     if not names:
         raise ParameterError(
             f'no parameter of {node.get_name()} has {part!r} in its name: without a text, '
             '--parameters lists all'
         )
-    lines = []
-    for about in node.describe_parameters(names):
-        value = yaml.safe_dump(values[about.name], default_flow_style=True, width=10**6)
-        facts = [about.description, about.additional_constraints]
-        facts.append('can be set only at the start' if about.read_only else '')
-        lines.append(f'{about.name}: {value.splitlines()[0]}')
-        lines.append(f'    {"; ".join(filter(None, facts))}')
-    return '\n'.join(line for line in lines if line.strip())
+    abouts = node.describe_parameters(names)
+    return '\n'.join(line for one in abouts for line in lines_about(one, values[one.name]))
+
+
+def lines_about(about: ParameterDescriptor, value: Any) -> list[str]:
+    """Return the line with a *value*, and the one with its description, if there is one."""
+    facts = [about.description, about.additional_constraints]
+    facts.append('can be set only at the start' if about.read_only else '')
+    text = '; '.join(filter(None, facts))
+    first = f'{about.name}: {value_text(value)}'
+    return [first, f'    {text}'] if text else [first]
+
+
+def value_text(value: Any) -> str:
+    """Return a value as a parameter file has it, in one line."""
+    dumped: str = yaml.safe_dump(value, default_flow_style=True, width=10**6)
+    return dumped.splitlines()[0]
+
+
+def is_of_ros(name: str) -> bool:
+    """Return whether a parameter is one that ROS adds to each node or topic."""
+    return name.startswith(OF_ROS)
