@@ -35,6 +35,7 @@ NAVIGATION = {
         'docs/controller',
         'docs/bench',
         'docs/cluster',
+        'docs/command',
         'docs/plot',
         'docs/recordings',
         'docs/identification',

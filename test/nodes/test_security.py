@@ -40,7 +40,10 @@ RIGS = {
     'drawn': {'pam_plot': FOLLOWS},
 }
 PROGRAMS = sorted({program for rig in RIGS.values() for program in rig})
-NODES = {'pam_plot': '_pam_plot'}  # the names of nodes, where they are not those of the programs
+NODES = {
+    'pam_command': '_pam_command',
+    'pam_plot': '_pam_plot',
+}  # the names of nodes, where they are not those of the programs
 NO_KEYS = (
     'the command ros2 security, which makes keys, is not installed: that a stranger is not heard '
     'was not tried'
@@ -195,12 +198,34 @@ def test_the_operator_may_call_what_the_programs_answer():
         assert answered
         for name in answered:
             assert any(fnmatchcase(name, one) for one in rules['services', 'request']), name
-    # What each command ros2 offers itself.
-    (own,) = rules['services', 'reply']
-    assert fnmatchcase('/_ros2cli_12345/get_type_description', own)
+    # What each command ros2 offers itself, and pam_command.
+    own = rules['services', 'reply']
+    offered = ('/_ros2cli_12345/get_type_description', '/_pam_command/get_type_description')
+    assert [any(fnmatchcase(one, rule) for rule in own) for one in offered] == [True, True]
+    assert len(own) == len(offered)
     assert rules['actions', 'call'] == permitted('/pam_control')['actions', 'execute']
     # A person gives references to the controller, and no pressures past it.
     assert not any(name.endswith('command') for name in rules['topics', 'publish'])
+
+
+@pytest.mark.at_any_pace
+def test_the_operator_may_do_what_pam_command_does_with_a_reference(peer):
+    rules = permitted('/operator')
+    own = {}
+
+    def is_there():
+        own.update(used(peer, 'pam_command', 'one'))
+        return own.get(('topics', 'publish'), set()) >= {'/position_reference', '/rosout'}
+
+    peer.node.create_subscription(Float64, 'one/position_reference', lambda _: None, 10)
+    with FreshProgram(
+        'pam_command', '-r', '__ns:=/one', '--', 'position', '60mm', '--wait', '60'
+    ) as program:
+        peer.until(lambda: is_there() or not program.is_running, 'the topic')
+    assert own['topics', 'publish'] >= {'/position_reference'}
+    for rule, names in own.items():
+        for name in names:
+            assert any(fnmatchcase(name, one) for one in rules[rule]), (rule, name)
 
 
 def secured(monkeypatch, keys):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """README.md and all pages: commands, options, files and links exist; pictures are small."""
 
+import argparse
 import json
 import re
 import shlex
@@ -16,6 +17,7 @@ import yaml
 
 from benchmarks.__main__ import names as benchmarks
 from pam_ros.cli import pam_identify
+from pam_ros.command import options
 from pam_ros.errors import ParameterError
 from pam_ros.settings import excite
 from pam_ros.settings.control import settings_of
@@ -159,9 +161,22 @@ def check_program(name, words):
                 str(ROOT / given.params) if '/' in given.params else given.params, given.set
             )
         return
+    if name == 'pam_command' and len(own) > 1:
+        check_command(own)
+        return
     for word in own:
         if word.startswith('-'):
             assert has_option(f'pam_ros.cli.{name}', word), f'{name} {word}'
+
+
+def check_command(words):
+    """Check that ``pam_command`` understands *words*, and that parameters exist."""
+    parser = argparse.ArgumentParser()
+    options.add_arguments(parser)
+    given = options.checked(parser.parse_args(words))
+    known = {**TABLES['pam_sim']({}), **TABLES['pam_control']({})}
+    for parameter in [parameter for parameter, _ in given.pairs] or given.names:
+        assert given.action == 'call' or any(parameter in one for one in known), parameter
 
 
 def check_launch(words):
@@ -183,7 +198,7 @@ def check(words):
         check_program(words[3], words[4:])
     elif words[:3] == ['ros2', 'launch', 'pam_ros']:
         check_launch(words[3:])
-    elif words[:3] == ['ros2', 'param', 'describe']:
+    elif words[:3] in (['ros2', 'param', 'describe'], ['ros2', 'param', 'get']):
         assert words[3].lstrip('/') in PROGRAMS
     elif words[:3] == ['ros2', 'param', 'set']:
         assert words[3] == '/pam_sim'
@@ -280,6 +295,10 @@ def test_a_wrong_command_would_be_found():
             check(command.split())
     with pytest.raises(SystemExit):
         check(['pam_identify', 'monday', '--parms', 'dmsp_10', '--out', 'report'])
+    with pytest.raises(SystemExit):
+        check(['pam_command', 'presure', '3bar'])
+    with pytest.raises(AssertionError):
+        check(['pam_command', 'get', 'mas_'])
 
 
 @each_page

@@ -160,3 +160,5 @@ def _repeat(
             if now - known:
                 _warn(graph, every)
             known = now
+    for topic, publisher in zip(topics, commands.publishers, strict=True):
+        yield from acknowledged(graph, topic, publisher)

@@ -39,7 +39,11 @@ def request(
                 yield False
         else:
             what = f'the answer of {service}'
-            yield from graph.until(is_over, what, lambda: f'{unanswered} within {graph.wait:g} s')
+            yield from graph.until(
+                is_over,
+                what,
+                lambda: f'{unanswered} within {graph.wait:g} s: is its node stopped?',
+            )
         if not future.done():
             raise AbsentError(f'{unanswered}: its node has ended')
         return future.result()
