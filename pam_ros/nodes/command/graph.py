@@ -133,7 +133,8 @@ class Graph:
         names = ' or '.join(topics)
         text = f'no node of a rig subscribes to {names}' + (f' ({other[0]})' if other else '')
         known = [name for name, _ in self._node.get_topic_names_and_types()]
-        heard = [name for name in known if self._node.count_subscribers(name)]
+        elsewhere = [name for name in known if name.rpartition('/')[0] != self.space]
+        heard = [name for name in elsewhere if self._node.count_subscribers(name)]
         return self.missing(text, in_another_namespace(topics[0], heard))
 
     def missing_node(self, text: str, wanted: str) -> str:

@@ -35,11 +35,13 @@ def command_pressure(node: TickingNode, graph: Graph, options: Options) -> Steps
     def has_all() -> bool:
         return bool(graph.receivers(array, FLOAT64_ARRAY))
 
-    yield from graph.until(
-        lambda: has_own() or has_all(),
-        f'a subscriber of {" or ".join([*own, array])}',
-        lambda: graph.missing_topic([*own, array], FLOAT64),
-    )
+    def missing() -> str:
+        has_one = bool(muscles) and bool(graph.receivers(one, FLOAT64))
+        hint = f'; {one} has a subscriber: leave out the names of muscles' if has_one else ''
+        return graph.missing_topic([*own, array], FLOAT64) + hint
+
+    what = f'a subscriber of {" or ".join([*own, array])}'
+    yield from graph.until(lambda: has_own() or has_all(), what, missing)
     yield from graph.settle()
     number = len(options.pressures)
     if has_own() and (muscles or number == 1):

@@ -75,6 +75,11 @@ def test_what_the_rig_does_not_permit_is_refused_and_not_sent(peer):
             2,
             'pam_command: 2 pressures for one muscle of /pam_sim: give one',
         )
+        end = command('pressure', 'pam:=1bar', wait=('--wait', '4'))
+        assert end.code == 1
+        assert end.sentence.endswith(
+            '/pressure_command has a subscriber: leave out the names of muscles'
+        )
         peer.more(found, 5)
         assert gauge(found) == 0.0
         assert command('pressure', '450Pa').code == 0
@@ -141,7 +146,7 @@ def test_a_rig_that_tells_nothing_is_commanded_until_it_ends(peer):
         peer.node.destroy_subscription(valve)
         peer.until(lambda: not program.is_running, 'the end of the program')
         assert program.wait() == 1
-        first, last = program.output.splitlines()[-2:]
+        first, _, last = program.output.splitlines()[-3:]
     assert {message.data for message in received} == {300e3}
     assert first.endswith('until Ctrl-C, because its time-out is not known')
     assert last == 'pam_command: no node receives /pressure_command any more'
