@@ -3,6 +3,7 @@
 """Command pressures: find who receives them, check them, publish them as often as is needed."""
 
 from collections.abc import Sequence
+from functools import partial
 from time import monotonic, monotonic_ns
 
 from rclpy.node import Node
@@ -73,7 +74,9 @@ def command_pressure(node: TickingNode, graph: Graph, options: Options) -> Steps
         yield from matched(graph, topic, publisher)
     commands.publish(pressures)
     for topic, publisher in zip(topics, commands.publishers, strict=True):
-        yield from acknowledged(graph, topic, publisher)
+        # A lost message is sent again after seconds only, in which the rig would vent.
+        again = None if is_once else partial(commands.publish, pressures)
+        yield from acknowledged(graph, topic, publisher, again)
     receivers = dict.fromkeys(name for topic in topics for name in _receivers(graph, topic))
     values = ', '.join(f'{pressure:g} Pa' for pressure in pressures)
     print(

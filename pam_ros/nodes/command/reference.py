@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Send a reference to a controller, and find out whether it refuses it."""
 
+from collections.abc import Callable
 from time import time_ns
 from typing import Any
 
@@ -115,10 +116,22 @@ def matched(graph: Graph, topic: str, publisher: Publisher) -> Steps[None]:
     )
 
 
-def acknowledged(graph: Graph, topic: str, publisher: Publisher) -> Steps[None]:
-    """Wait until all reliable subscribers have received what was published."""
+def acknowledged(
+    graph: Graph, topic: str, publisher: Publisher, again: Callable[[], None] | None = None
+) -> Steps[None]:
+    """Wait until all reliable subscribers have received what was published.
+
+    Until then, *again* is called in each step, to publish it again.
+    """
+
+    def is_received() -> bool:
+        is_so = bool(publisher.wait_for_all_acked(AT_ONCE))
+        if not is_so and again is not None:
+            again()
+        return is_so
+
     yield from graph.until(
-        lambda: publisher.wait_for_all_acked(AT_ONCE),
+        is_received,
         f'the receipt of a message on {topic}',
         lambda: f'a subscriber of {topic} has not acknowledged the message: does it still run?',
     )
