@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pam_ros.bench.references import SOONEST
 from pam_ros.errors import ParameterError, printable
 from pam_ros.parameters import Parameter, check_all, described, parameter_field
-from pam_ros.settings.tables import similar
+from pam_ros.similar_names import similar
 
 FREEZE, RESTART, STOP = KINDS = ('freeze', 'restart', 'stop')
 MOST_LOST = 0.9

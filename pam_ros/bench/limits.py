@@ -20,7 +20,7 @@ from pam_ros.bench.table import value_text
 from pam_ros.errors import ParameterError, shown
 from pam_ros.identification.wording import name_in_words
 from pam_ros.plain_yaml import read_yaml
-from pam_ros.settings.tables import similar
+from pam_ros.similar_names import similar
 
 EVERY = '*'  # stands for each scenario
 

@@ -19,7 +19,8 @@ from pam_ros.plain_yaml import read_yaml
 from pam_ros.settings.files import find, flattened, share
 from pam_ros.settings.scene import Scene, SimulationSetup
 from pam_ros.settings.sim import SimSettings
-from pam_ros.settings.tables import Values, checked, similar, table_of
+from pam_ros.settings.tables import Values, checked, table_of
+from pam_ros.similar_names import similar
 
 FOLDER = 'bench'  # of config/
 SUITES = ('muscle', 'joint')

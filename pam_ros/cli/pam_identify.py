@@ -185,6 +185,8 @@ def run(given: argparse.Namespace, command: str) -> str:
     inputs = read_inputs(given, (given.recordings, given.test), given.values)
     for names, warning in warning_list([*inputs.recordings, *inputs.test]):
         print(shown(f'{names}: {warning}'), file=sys.stderr)
+    if inputs.assumed:
+        print(f'note: {inputs.assumed}', file=sys.stderr)
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
     source = provenance(inputs, given.set, command)

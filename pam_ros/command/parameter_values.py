@@ -7,7 +7,8 @@ from typing import Any
 
 from pam_ros.command.amounts import amount_of
 from pam_ros.errors import PamError
-from pam_ros.settings.tables import listed, similar
+from pam_ros.settings.tables import listed
+from pam_ros.similar_names import similar
 
 UNIT = re.compile(r'\[([^\[\]]+)\]$')  # at the end of a description, as nodes of pam_ros have it
 

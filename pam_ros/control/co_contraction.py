@@ -4,6 +4,7 @@
 
 from dataclasses import dataclass
 
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.control.allocation import Allocation
 from pam_ros.control.reference.profile import JerkLimitedMotion, MotionLimits
 from pam_ros.parameters import check_all, parameter_field
@@ -12,7 +13,7 @@ RISE = 0.05  # s, to reach the rate, and also its slope: some three samples of a
 
 
 @dataclass(frozen=True)
-class CoContraction:
+class CoContraction(metaclass=RefusesUnknownNames):
     """The desired stiffness of a joint, and how fast it may change.
 
     In N/m, or N m/rad of a revolute joint.

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from pam_ros.arguments import instance
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import Parameter, check_all, described
 from pam_ros.rig.joint import Joint
@@ -37,7 +38,7 @@ def defaults_of(cls: type, sizes: Sizes, *, revolute: bool) -> dict[str, Any]:
 
 
 @dataclass(frozen=True)
-class JointSettings:
+class JointSettings(metaclass=RefusesUnknownNames):
     """Described parameters: in m and N for a prismatic joint, in rad and N m for a revolute one.
 
     The constructor has the defaults of a prismatic joint of the reference rig; :meth:`for_joint`

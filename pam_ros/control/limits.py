@@ -4,15 +4,17 @@
 
 from dataclasses import dataclass
 
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.muscle.pressure_unit import is_low
 from pam_ros.parameters import check_all, parameter_field
 
 MARGIN = 0.02  # share of the range of pressure that is kept for control at each end
 
 
 @dataclass(frozen=True)
-class Limits:
+class Limits(metaclass=RefusesUnknownNames):
     """Limits of the commanded pressure, within those of the muscle."""
 
     pressure_low: float = parameter_field(
@@ -47,6 +49,11 @@ class Limits:
             raise ParameterError(
                 f'pressure_low = {self.pressure_low:g} Pa leaves no range below the p_max = '
                 f'{muscle.p_max:g} Pa of the muscle'
+            )
+        if is_low(high, muscle.p_max):
+            raise ParameterError(
+                f'pressure_high = {high:g} Pa is not allowed, with p_max = {muscle.p_max:g} Pa: '
+                'pressures are in Pa, is it in kPa or bar?'
             )
         return low, high
 

@@ -5,6 +5,7 @@
 import math
 
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.muscle.pressure_unit import is_low
 
 
 class PressureInput:
@@ -22,6 +23,7 @@ class PressureInput:
         self.refused = 0
         self.reason = ''
         self.last: float | None = None  # Pa, the last valid command before clamping
+        self.highest = 0.0  # Pa, the largest absolute value of them
 
     def take(self, value: float) -> float | None:
         """Return the pressure to apply in Pa, or None if *value* is refused."""
@@ -33,12 +35,18 @@ class PressureInput:
             return None
         self.accepted += 1
         self.last = value
+        self.highest = max(self.highest, abs(value))
         applied = self.within_limits(value)
         if applied != value:
             self.clamped += 1
             limits = f'{self.muscle.p_min:g} to {self.muscle.p_max:g}'
             self.reason = f'pressure command {value:g} Pa is outside {limits}: clamped'
         return applied
+
+    @property
+    def is_low(self) -> bool:
+        """Whether all commands were so low that they may be in kPa or bar."""
+        return is_low(self.highest, self.muscle.p_max)
 
     def within_limits(self, pressure: float) -> float:
         """Return the pressure in Pa, possible for the valve, that is nearest to *pressure*."""

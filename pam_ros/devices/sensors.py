@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.parameters import check_all, parameter_field
 
 Array = NDArray[np.float64]
@@ -15,7 +16,7 @@ POSITION, VELOCITY, PRESSURE, FORCE, ACCELERATION = range(5)
 
 
 @dataclass(frozen=True)
-class Sensors:
+class Sensors(metaclass=RefusesUnknownNames):
     """The faults of the sensors, all absent by default.
 
     Noise is white and Gaussian, and independent for every reading; the same seed and the same

@@ -44,7 +44,7 @@ in SI, in the order of the fields; each file has names for these indices. The pa
 muscle or joint itself are at the indices of :mod:`pam_ros.effects.rows`.
 """
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Collection, Mapping, MutableSequence
 from dataclasses import dataclass, fields, replace
 from enum import Enum
@@ -56,6 +56,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.cached_property import cached_property
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.effects.names import EffectName
 from pam_ros.effects.parameter import EffectParameter
 from pam_ros.errors import ParameterError
@@ -184,7 +185,7 @@ class EffectEquations:
 
 
 @dataclass(frozen=True)
-class Effect(ABC):
+class Effect(metaclass=RefusesUnknownNames):
     """A physical effect that the paper's model lacks, with the values of its parameters.
 
     As for loads, an effect is a dataclass of its parameters and equations that are compiled into

@@ -42,6 +42,8 @@ def commands(plant: Plant, last: int) -> Health:
             late = list(compress(plant.setup.muscle_names, plant.has_timed_out))
             whose = f' for {", ".join(late[:5])}' + (' and others' if len(late) > 5 else '')
         return Health(Level.WARN, f'no command{whose} for {age:.3g} s: {did}', values)
+    if low := plant.low_commands:
+        return Health(Level.WARN, low, values)
     return Health(Level.OK, 'commanded', values)
 
 

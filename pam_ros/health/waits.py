@@ -11,6 +11,8 @@ from pam_ros.simulator.plant import Plant
 from pam_ros.timing.interruption import steady_ns
 from pam_ros.timing.pace import SECOND
 
+RAMP = 0.5  # s of simulated time in which commands may still be those of a ramp from 0
+
 
 class Waits:
     """Logs a line when the clock or a command is missing, and a line when it is received again.
@@ -25,6 +27,7 @@ class Waits:
         self._turn = Absence(logger, 'commands are received: simulated time passes', 0.0)
         self._first = Absence(logger, f'commands are received on {topic}')
         self._next = Absence(logger, 'commands are received again', 0.0, Level.WARN)
+        self._high = Absence(logger, 'commands are higher now', RAMP, Level.WARN)
 
     def look(self, no_clock: str | None, no_turn: str) -> None:
         """Check the clock and, in lockstep, the commands: a sentence if missing, else ''.
@@ -40,7 +43,7 @@ class Waits:
         self._turn.look(no_turn, now, 0.5)
 
     def look_for_commands(self, missing: str) -> None:
-        """Check for the first command and, if commands have stopped, for the next one.
+        """Check for the first command, for the next one if they stopped, and for their unit.
 
         *missing* is a sentence on commands that have stopped, '' if all muscles are commanded.
         Both waits are measured in simulated time, like the timeout.
@@ -54,3 +57,4 @@ class Waits:
         if is_commanded:
             timeout = plant.setup.settings.command_timeout
             self._next.look(missing, plant.time, timeout, plant.timeouts)
+            self._high.look(plant.low_commands, plant.time)

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import alike
 from pam_ros.cached_property import cached_property
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.constants import CONSTANTS, Constants
 from pam_ros.muscle.muscle import Muscle
@@ -35,7 +36,7 @@ POINTS = 401  # number of contractions in the fit
 
 
 @dataclass(frozen=True)
-class Braid:
+class Braid(metaclass=RefusesUnknownNames):
     """The braid of a McKibben muscle at rest, without pressure and load.
 
     ``radius`` is in m, ``angle`` in degrees from the axis, ``end_factor`` a number from 1 to 2.

@@ -13,6 +13,8 @@ only shows that the force of the law is not above this reading. It is fitted as 
 together. So the search stays one-dimensional and reliable.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any
 

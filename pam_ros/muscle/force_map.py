@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The static force of a muscle over contraction and pressure, as data sheets draw it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any
 

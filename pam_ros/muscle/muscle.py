@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import alike, array, number, refuse
 from pam_ros.cached_property import cached_property
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle import law
 from pam_ros.muscle.constants import CONTRACTION_UNITS, PRESSURE_UNITS, Constants, to_si
@@ -20,7 +21,7 @@ FAR_OFF = 20.0  # factor above or below the rated force at which the constants a
 
 
 @dataclass(frozen=True)
-class Muscle:
+class Muscle(metaclass=RefusesUnknownNames):
     """A fluidic muscle after Sárosi (2015).
 
     Fields are given by the user, constants in the units of their source. Methods use SI units:

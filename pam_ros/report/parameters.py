@@ -17,7 +17,9 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import write
+from pam_ros.settings.nominal import NominalJoint, nominal_of
 from pam_ros.settings.rig import RigParameters
+from pam_ros.version import __version__
 
 
 def identified(result: Identification, source: Provenance) -> Joint:
@@ -45,10 +47,29 @@ def write_identified(path: Path, result: Identification, source: Provenance) -> 
     write(path, source.nominal.flat(identified(result, source)), about(result, source))
 
 
+def write_joint(path: Path, joint: Joint) -> None:
+    """Write a *joint* that a program made as a ROS parameter file for every node.
+
+    Raises ParameterError if no parameter file can describe it.
+    """
+    nominal = nominal_of(joint)
+    _refuse_custom(nominal, joint)
+    text = (
+        'A joint made by a program.\n'
+        'To simulate it: pam_sim --ros-args --params-file <this file>\n\n'
+        f'Written by pam_ros {__version__}.'
+    )
+    write(path, nominal.flat(), text)
+
+
 def refuse_indescribable(result: Identification, source: Provenance) -> None:
     """Raise ParameterError if no parameter file can describe the identified joint."""
     result.refuse_invalid()
-    nominal = source.nominal
+    _refuse_custom(source.nominal, result.stages[-1].model)
+
+
+def _refuse_custom(nominal: NominalJoint, model: Joint) -> None:
+    """Raise ParameterError if no file can describe the joint or the effects of *model*."""
     joint = nominal.joint
     if nominal.kind not in ARRANGEMENTS:
         parts = f'{type(joint.transmission).__name__} and {type(joint.load).__name__}'
@@ -60,7 +81,7 @@ def refuse_indescribable(result: Identification, source: Provenance) -> None:
     if nominal.kind is not LOAD:  # checks the names, which become names of parameters
         RigParameters({'joint': nominal.kind.name, 'muscles': nominal.muscles})
     known = {effect.name for effect in EFFECTS}
-    for effect in itertools.chain(*result.stages[-1].model.present):
+    for effect in itertools.chain(*model.present):
         if effect.name not in known:
             raise ParameterError(
                 f'a parameter file cannot describe the custom effect {effect.name}: it can be '

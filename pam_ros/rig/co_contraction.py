@@ -6,6 +6,8 @@ As in :mod:`pam_ros.rig.statics`, all of it is the nominal model. Desired values
 effort give two linear equations for the two pressures.
 """
 
+from __future__ import annotations
+
 from typing import Any
 
 from numpy.typing import ArrayLike

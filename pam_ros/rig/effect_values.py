@@ -10,6 +10,7 @@ from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import ONSET, Effect
 from pam_ros.effects.names import EffectName
 from pam_ros.errors import ParameterError
+from pam_ros.similar_names import not_known
 
 
 def checked_effects(effects: Sequence[Effect]) -> tuple[Effect, ...]:
@@ -42,14 +43,11 @@ def effects_from(
     known = {effect.name: effect for effect in library}
     for name, given in values.items():
         if name not in known:
-            raise ParameterError(f'effects.{name} is not known: give one of ' + ', '.join(known))
+            raise not_known(f'effects.{name}', name, known)
         names = [p.name for p in (*known[name].parameters(), ONSET)]
         for parameter in given:
             if parameter not in names:
-                raise ParameterError(
-                    f'{EffectName(name, parameter).flat} is not known: give one of '
-                    + ', '.join(names)
-                )
+                raise not_known(EffectName(name, parameter).flat, parameter, names)
     return tuple(effect(**values[name]) for name, effect in known.items() if name in values)
 
 

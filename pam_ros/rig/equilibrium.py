@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rest position of a joint whose effects may include slack muscles, stops and offsets."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import instance, one_each
+from pam_ros.muscle.pressure_unit import warn_of_unit
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
 from pam_ros.rig.bind import bind
@@ -28,9 +31,16 @@ def equilibrium(joint: Joint, p: ArrayLike) -> float:
     the direction in which the effects drive the joint from there.
 
     Raises RangeError if there is no equilibrium, and ParameterError for a p of another shape or
-    one that is not finite.
+    one that is not finite. Warns of a p that seems to be in kPa or bar, or is far above p_max.
     """
     p = one_each('p', p, len(instance('joint', joint, Joint, 'a Joint').actuators), 'muscle')
+    warn_of_unit('p', p, joint.muscles)
+    return rest_position(joint, p)
+
+
+def rest_position(joint: Joint, p: ArrayLike) -> float:
+    """Return :func:`equilibrium` for pressures of the package itself, which need no warning."""
+    p = statics.each(joint, p)
     if joint.is_driven:
         return 0.0
     start = statics.equilibrium(joint, p)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pam_ros.arguments import instance, sequence
 from pam_ros.cached_property import cached_property
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError, RangeError
@@ -30,13 +31,14 @@ from pam_ros.rig.effect_values import (
 from pam_ros.rig.layout import Layout, fill_load, layout_of
 from pam_ros.rig.loads import Load, LoadEquations, Mass
 from pam_ros.rig.transmissions import Straight, Transmission, TransmissionEquations
+from pam_ros.similar_names import not_known
 
 Array = NDArray[np.float64]
 CONTRACTION = Parameter('contraction at coordinate 0', 'fraction', -0.5, 0.9)
 
 
 @dataclass(frozen=True)
-class Actuator:
+class Actuator(metaclass=RefusesUnknownNames):
     """A muscle of a joint, with the effects in it and in its pressure path.
 
     ``contraction`` is that of the muscle at the coordinate 0, as a fraction from -0.5 to 0.9.
@@ -56,7 +58,7 @@ class Actuator:
 
 
 @dataclass(frozen=True)
-class Joint:
+class Joint(metaclass=RefusesUnknownNames):
     """A load that one or more muscles move along one coordinate: all that its equations need.
 
     ``actuators`` are the muscles in order. ``transmission`` connects them to the coordinate.
@@ -125,10 +127,8 @@ class Joint:
     def _check_place(self, effect: Effect, *, on_joint: bool) -> None:
         """Raise ParameterError for an effect that is not in the library, or acts elsewhere."""
         if type(effect) not in self.library:
-            raise ParameterError(
-                f'effects.{effect.name} is not known: give one of '
-                + ', '.join(known.name for known in self.library)
-            )
+            names = [known.name for known in self.library]
+            raise not_known(f'effects.{effect.name}', effect.name, names)
         if effect.acts_on_joint() is not on_joint:
             where = 'on the load' if effect.acts_on_joint() else 'in a muscle'
             raise ParameterError(f'effects.{effect.name} acts {where}: give it there')

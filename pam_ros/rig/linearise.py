@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The linear model of a joint about the position in which it rests under given pressures."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -10,10 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import instance, one_each
 from pam_ros.effects.base import Effect
+from pam_ros.muscle.pressure_unit import warn_of_unit
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
 from pam_ros.rig.changes import refuse_onsets
-from pam_ros.rig.equilibrium import acceleration_of, equilibrium, rest_from
+from pam_ros.rig.equilibrium import acceleration_of, rest_from, rest_position
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import start_state
 
@@ -62,14 +65,16 @@ def linearise(joint: Joint, pressure: ArrayLike) -> LinearModel:
     ``left_out`` names them.
 
     Raises RangeError if there is no equilibrium, and ParameterError for a joint with an onset, a
-    pressure of another shape or one that is not finite.
+    pressure of another shape or one that is not finite. Warns of a pressure that seems to be in
+    kPa or bar, or is far above p_max.
     """
     refuse_onsets(instance('joint', joint, Joint, 'a Joint'), 'linearise')
     p = one_each('pressure', pressure, len(joint.actuators), 'muscle')
     direct = joint.map_effects(lambda effects: [e for e in effects if not _has_memory(e)])
     lags = [_lag(joint, i) for i in range(len(p))]
     slow = [i for i, lag in enumerate(lags) if lag > 0.0]
-    s = equilibrium(direct, p)
+    warn_of_unit('pressure', p, joint.muscles)
+    s = rest_position(direct, p)
     if direct.active and not direct.is_driven:
         s = rest_from(direct, p, s)  # with offsets, slack and stops, also of one muscle on a mass
     stiffness, damping, gains, chambers = _slopes(direct, s, p)

@@ -6,12 +6,13 @@ As with transmissions, a load is a dataclass of the parameters that a user sets,
 are compiled into the stepping kernel.
 """
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, pi, sin
 from typing import Any, ClassVar
 
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import check_all, parameter_field
 
@@ -39,7 +40,7 @@ class LoadEquations:
     fall_slope: Callable[..., float]
 
 
-class Load(ABC):
+class Load(metaclass=RefusesUnknownNames):
     """The parameters of a load: its mass in kg, and the other numbers of its equations."""
 
     equations: ClassVar[LoadEquations]

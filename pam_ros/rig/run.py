@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulate one joint at given stamps: those of a recording or of a planned experiment."""
 
-import warnings
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -11,10 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import along, array, instance, number, refuse, refuse_shape, stamps
 from pam_ros.errors import ParameterError
+from pam_ros.muscle.pressure_unit import warn_of_unit
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
 from pam_ros.rig.changes import changes_of, refuse_onsets, run_over, run_pressures
-from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.rig.equilibrium import rest_position
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import delays_of
 from pam_ros.rig.start import behind_reservoir, disturb, start_state
@@ -22,7 +24,6 @@ from pam_ros.rig.statics import refuse_position
 from pam_ros.rig.step_limit import check_step
 
 Array = NDArray[np.float64]
-IN_KPA = 1e-3  # fraction of p_max up to which a pressure may be a value in kPa
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ def simulate(
     Raises ParameterError if *step* is too long for the joint, if shapes do not fit, stamps go
     back, a number is not finite, the muscles cannot have *position*, commands are so high that the
     motion is not finite, or *hidden* has an effect that the joint lacks. Warns of commands that
-    seem to be in kPa or bar.
+    seem to be in kPa or bar, or are far above p_max.
     """
     step = number('step', step)
     check_step(instance('joint', joint, Joint, 'a Joint'), step)
@@ -78,11 +79,11 @@ def simulate(
     start = [stage for time, stage in joint.stages if time <= max(t[0], 0.0)][-1]
     q, layout = start.parameters(), joint.layout
     command = by_muscle('command', command, clock, command_t.size, layout.muscles)
-    _warn_low('command', command, joint)
+    warn_of_unit('command', command, joint.muscles)
     velocity = number('velocity', velocity)
     first = _acting(command_t, command, delays_of(layout, q), t[0])
     if position is None:
-        s = equilibrium(start, first)
+        s = rest_position(start, first)
     else:
         s = number('position', position)
         refuse_position('position', s, joint)
@@ -120,7 +121,7 @@ def simulate_pressure(
     )
     q, layout = joint.parameters(), joint.layout
     command = by_muscle('command', command, clock, command_t.size, layout.muscles)
-    _warn_low('command', command, joint)
+    warn_of_unit('command', command, joint.muscles)
     first = _acting(command_t, command, delays_of(layout, q), t[0])
     x = start_state(layout, q, first, 0.0, 0.0, joint.all_present)
     kernel = bind(layout, joint.active)
@@ -170,7 +171,7 @@ def simulate_held(
     v = _rate(t, position) if velocity is None else along('velocity', velocity, 't', t.size)
     q, layout = joint.parameters(), joint.layout
     pressure = by_muscle('pressure', pressure, 't', t.size, layout.muscles)
-    _warn_low('pressure', pressure, joint)
+    warn_of_unit('pressure', pressure, joint.muscles)
     present = behind_reservoir(joint.all_present)
     x = start_state(layout, q, pressure[0], float(position[0]), float(v[0]), present)
     out = np.empty((len(t), layout.run_columns))
@@ -213,18 +214,6 @@ def by_muscle(name: str, value: ArrayLike, clock: str, count: int, muscles: int)
             allowed = f'{wanted}, a row for each stamp of {clock} and a column for each muscle'
         refuse_shape(name, found, allowed)
     return found
-
-
-def _warn_low(name: str, pressure: Array, joint: Joint) -> None:
-    """Warn of a *pressure* in Pa (m, muscles) that is so low that it may be in kPa or bar."""
-    p_max = max(muscle.p_max for muscle in joint.muscles)
-    highest = float(np.max(np.abs(pressure), initial=0.0))
-    if 0.0 < highest <= IN_KPA * p_max and not joint.is_driven:
-        warnings.warn(
-            f'{name} reaches {highest:g} Pa only, and p_max is {p_max:g} Pa: '
-            'pressures are in Pa, is it in kPa or bar?',
-            stacklevel=3,
-        )
 
 
 def _rate(t: Array, position: Array) -> Array:

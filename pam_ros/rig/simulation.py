@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joints that are advanced in time, for the simulator node and for the tests of controllers."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from itertools import groupby
 from operator import index
@@ -13,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from pam_ros.arguments import number, one_each, refuse, sequence
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
-from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.rig.equilibrium import rest_position
 from pam_ros.rig.group import Group
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
@@ -82,7 +84,7 @@ class Simulation:
         ]
         self.reset(
             np.zeros(len(self._muscles)),
-            [equilibrium(joint.at_start, 0.0) for joint in joints],
+            [rest_position(joint.at_start, 0.0) for joint in joints],
             0.0,
         )
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The two usual joints in one call: one muscle that lifts a mass, two muscles on a pulley."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 from numpy.typing import ArrayLike

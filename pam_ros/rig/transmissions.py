@@ -19,6 +19,7 @@ from dataclasses import astuple, dataclass
 from math import acos, cos, pi, sin, sqrt
 from typing import Any, ClassVar
 
+from pam_ros.constructors import RefusesUnknownNames
 from pam_ros.parameters import check_all, parameter_field
 
 # Least radius, crank and distance of an anchor, m: far below any that is built. Products of
@@ -62,7 +63,7 @@ class TransmissionEquations:
 
 
 @dataclass(frozen=True)
-class Transmission:
+class Transmission(metaclass=RefusesUnknownNames):
     """The parameters of a transmission: a dataclass of numbers."""
 
     equations: ClassVar[TransmissionEquations]

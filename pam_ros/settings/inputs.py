@@ -14,6 +14,7 @@ from pam_ros.identification.identify import identify
 from pam_ros.recording.inputs import refuse_copies, refuse_idle
 from pam_ros.recording.mapping import column_names, read_mapping
 from pam_ros.recording.recording import Recording
+from pam_ros.settings.files import presets
 from pam_ros.settings.nominal import (
     NominalJoint,
     nominal_joint,
@@ -38,6 +39,23 @@ class Inputs:
     uncertain: Mapping[str, str]
     recordings: Sequence[Recording]
     test: Sequence[Recording]
+    given: Sequence[str] = ()  # values of --set
+
+    @property
+    def assumed(self) -> str:
+        """A sentence on the mass if it is that of a muscle of this package; else empty."""
+        mass = getattr(self.nominal.joint.load, 'mass', None)
+        names = {text.partition('=')[0].strip() for text in self.given}
+        numbers = {name for one in (*self.recordings, *self.test) for name in one.numbers}
+        moves = any(one.kind == 'free' for one in (*self.recordings, *self.test))
+        if mass is None or 'mass' in names | numbers or not moves:
+            return ''
+        if self.params not in presets('muscles'):
+            return ''
+        return (
+            f'the load is {mass:g} kg, the example in the file of the muscle {self.params}: '
+            'give that of your rig with --set mass=...'
+        )
 
     def identify(
         self,
@@ -89,7 +107,7 @@ def read_inputs(
     require_joint([*recordings, *test], nominal.joint)
     refuse_idle(recordings)  # here already, so that no warning is printed before the error
     refuse_copies([*recordings, *test])
-    return Inputs(params, nominal, uncertain, recordings, test)
+    return Inputs(params, nominal, uncertain, recordings, test, tuple(given.set))
 
 
 def _params(given: str | None, of_lists: Sequence[str | None]) -> str:

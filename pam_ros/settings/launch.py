@@ -19,7 +19,8 @@ from pam_ros.settings.control import ControlSettings
 from pam_ros.settings.files import find
 from pam_ros.settings.rig import KINDS
 from pam_ros.settings.sim import SimSettings
-from pam_ros.settings.tables import Table, joint_table, override, similar, table_of
+from pam_ros.settings.tables import Table, joint_table, override, table_of
+from pam_ros.similar_names import similar
 
 PACKAGE = 'pam_ros'
 MUSCLE = 'dmsp_20_400n'

@@ -9,7 +9,6 @@ parameter files and command lines share these tables, so that no list of paramet
 
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, replace
-from difflib import get_close_matches
 from typing import Any, TypeVar
 
 from pam_ros.effects import EFFECTS
@@ -21,6 +20,7 @@ from pam_ros.parameters import Parameter, described
 from pam_ros.rig.arrangements import LOAD, Arrangement
 from pam_ros.rig.effect_values import effects_from
 from pam_ros.rig.joint import CONTRACTION
+from pam_ros.similar_names import similar
 
 Value = bool | int | float | str | tuple[str, ...]
 Values = Mapping[str, Value]
@@ -28,7 +28,6 @@ Table = dict[str, tuple[type, Any, Parameter]]
 T = TypeVar('T')
 
 ORDINALS = ('first', 'second', 'third', 'fourth', 'fifth', 'sixth')
-ALIKE = 0.8  # similarity from which an unknown name is assumed to be mistyped
 
 
 def table_of(cls: type, prefix: str = '', *, revolute: bool = False) -> Table:
@@ -136,11 +135,6 @@ def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
         if alike := similar(name, known):
             raise ParameterError(f'{name} is not a parameter: was {alike} meant?')
     return unknown
-
-
-def similar(name: str, known: Iterable[str]) -> str:
-    """Return the name among *known* that *name* probably stands for, '' if there is none."""
-    return next(iter(get_close_matches(name, known, n=1, cutoff=ALIKE)), '')
 
 
 def refuse_unknown_effects(values: Values) -> None:

@@ -5,7 +5,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.rig.equilibrium import rest_position
 from pam_ros.settings.scene import SimulationSetup
 
 Array = NDArray[np.float64]
@@ -25,7 +25,7 @@ def initial_state(setup: SimulationSetup) -> tuple[Array, Array, Array]:
         if start.at_rest:
             key = id(joint), p
             if key not in rests:
-                rests[key] = equilibrium(joint.at_start, p)
+                rests[key] = rest_position(joint.at_start, p)
             positions.append(rests[key])
             velocities.append(0.0)
         else:

@@ -136,6 +136,18 @@ class Plant:
         whose = f'{self.setup.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
         return BadCommand(muscle, whose + self.inputs[muscle].reason, is_refused)
 
+    @property
+    def low_commands(self) -> str:
+        """A sentence if all commands of a muscle may be in kPa or bar; empty otherwise."""
+        for name, given in zip(self.setup.muscle_names, self.inputs, strict=True):
+            if given.is_low:
+                whose = f'{name}: ' if len(self.inputs) > 1 else ''
+                return (
+                    f'{whose}commands reach {given.highest:g} Pa only, and p_max is '
+                    f'{given.muscle.p_max:g} Pa: they are in Pa, are these in kPa or bar?'
+                )
+        return ''
+
     def _order(self, muscle: int, pressure: float) -> None:
         self._ordered[muscle] = pressure
         self._simulation.command_one(muscle, pressure)

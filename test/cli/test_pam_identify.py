@@ -99,6 +99,23 @@ def test_friction_is_found_and_the_model_corrected(found):
     assert not any('converged' in line for line in summary)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(('given', 'is_noted'), [((), True), (('--set', 'mass=20'), False)])
+def test_the_mass_of_an_example_is_mentioned(bench, given, is_noted):
+    """The note is there before the first line of progress."""
+    process = start(bench, 'friction.csv', '--params', 'dmsp_20_400n', *given, '--out', 'noted')
+    lines = []
+    for line in process.stderr:
+        lines.append(line)
+        if ' %  ' in line:
+            break
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    notes = [line for line in lines if line.startswith('note: ')]
+    text = 'note: the load is 20 kg, the example in the file of the muscle dmsp_20_400n: '
+    assert notes == ([f'{text}give that of your rig with --set mass=...\n'] if is_noted else [])
+
+
 def test_report_is_valid(found):
     jsonschema = pytest.importorskip('jsonschema')
     schema = json.loads((ROOT / 'docs' / 'report.schema.json').read_text(encoding='utf-8'))

@@ -33,3 +33,10 @@ def test_limits_that_leave_nothing_are_refused():
         Limits(pressure_low=400e3, pressure_high=300e3)
     with pytest.raises(ParameterError, match='leaves no range below the p_max = 600000 Pa'):
         Limits(pressure_low=700e3).range_for(Muscle())
+
+
+def test_a_highest_pressure_in_kpa_is_refused():
+    muscle = Muscle()
+    assert Limits(pressure_high=601.0).range_for(muscle) == (0.0, 601.0)
+    with pytest.raises(ParameterError, match=r'pressure_high = 400 Pa .* is it in kPa or bar\?'):
+        Limits(pressure_high=400.0).range_for(muscle)

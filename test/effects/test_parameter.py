@@ -153,5 +153,5 @@ def test_where_a_fit_starts_names_parameters_and_values_that_there_are():
     assert start_from(Leak, rate=0.3, refill=0.0) == {'rate': 0.3, 'refill': 0.0}
     with pytest.raises(ParameterError, match=r'effects.leak.rate = 20.0 is not allowed'):
         start_from(Leak, rate=20.0)
-    with pytest.raises(TypeError, match='leakage'):
+    with pytest.raises(ParameterError, match='Leak has no leakage'):
         start_from(Leak, leakage=0.1)

@@ -115,3 +115,19 @@ def test_a_simulator_that_no_longer_follows_a_clock_does_not_say_that_one_is_rec
     rig.waits.look('', '')
     received = '/clock is received: simulated time passes'
     assert rig.log.infos == ['waits for /clock', 'waits for /clock', received]
+
+
+def test_commands_in_kpa_are_mentioned_once_and_a_ramp_is_not(rig):
+    rig.advance(1, commands_at=(900,))  # a first command of 100 kPa
+    rig.advance(3, commands_at=(500,))
+    assert rig.log.warnings == []
+    low = Rig()
+    low.plant.take([450.0], [0])
+    assert commands(low.plant, 0).message.startswith('commands reach 450 Pa only')
+    low.advance(4)
+    text = 'commands reach 450 Pa only, and p_max is 600000 Pa: they are in Pa, are these in kPa'
+    assert [line for line in low.log.warnings if 'Pa only' in line] == [f'{text} or bar?']
+    low.plant.take([300e3], [0])
+    assert commands(low.plant, 0).message == 'commanded'
+    low.advance(2)
+    assert low.log.infos.count('commands are higher now') == 1

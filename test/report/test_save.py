@@ -100,6 +100,24 @@ def test_each_joint_of_a_parameter_file_is_read_again(friction, joint, muscles, 
     assert (again.load, again.transmission) == (joint.load, joint.transmission)
 
 
+@pytest.mark.parametrize('joint', [CRANK, Joint(TWO, Mass(30.0)), single_muscle_joint()])
+def test_a_joint_of_a_program_is_saved_without_an_identification(joint, tmp_path):
+    changed = joint.with_effects(CoulombFriction(level=3.0))
+    save_parameters(changed, tmp_path / 'mine.yaml')
+    again = load_joint(tmp_path / 'mine.yaml')
+    assert np.array_equal(again.parameters(), changed.parameters())
+    assert by_name(again.all_effects).keys() == {'coulomb_friction'}
+    head = (tmp_path / 'mine.yaml').read_text(encoding='utf-8').splitlines()[0]
+    assert head == '# A joint made by a program.'
+
+
+@pytest.mark.parametrize('what', [None, 'dmsp_10', Muscle()])
+def test_what_is_neither_is_refused(what, tmp_path):
+    with pytest.raises(PamError, match=r'what = .* give what identify\(\) returned, or a Joint'):
+        save_parameters(what, tmp_path / 'mine.yaml')
+    assert names(tmp_path) == []
+
+
 @dataclass(frozen=True)
 class Drum(Pulley):
     """A pulley of a user's own."""
@@ -121,6 +139,12 @@ OFFSET = Joint((Actuator(contraction=0.05),), Mass(20.0), Straight())
 def test_a_joint_of_no_parameter_file_is_refused(friction, joint, muscles, said, tmp_path):
     with pytest.raises(PamError, match=said):
         save_parameters(of_joint(friction[0], joint, muscles), tmp_path / 'joint.yaml')
+    assert names(tmp_path) == []
+
+
+def test_a_joint_of_a_program_that_no_file_can_describe_is_refused(tmp_path):
+    with pytest.raises(PamError, match='Drum and Arm: it can be one of load'):
+        save_parameters(DRUM, tmp_path / 'joint.yaml')
     assert names(tmp_path) == []
 
 

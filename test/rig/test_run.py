@@ -397,7 +397,10 @@ def test_pressures_that_may_be_meant_are_not_warned_of():
 @pytest.mark.needs_numba  # plain Python warns of the overflow
 def test_commands_too_high_for_a_finite_motion_are_refused_with_a_sentence():
     t = np.arange(0.0, 2.0, 0.01)
-    with pytest.raises(ParameterError) as error:
+    with (
+        pytest.warns(UserWarning, match='the force law is not valid there'),
+        pytest.raises(ParameterError) as error,
+    ):
         simulate(single_muscle_joint(), t, [3e5, 1e300], [0.0, 1.0])
     assert str(error.value) == (
         'the motion is not finite from 1.01 s on: command reaches 1e+300 Pa, and p_max is 600000 '

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.rig.equilibrium import rest_position
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -63,7 +63,7 @@ def test_no_rig_that_is_accepted_gives_nan(a, zeta, l0, mass, mount, commands, s
     except ParameterError:
         return
     rig = Simulation([model], longest_step(model))
-    rig.reset([start], [equilibrium(model, start)], [0.0])
+    rig.reset([start], [rest_position(model, start)], [0.0])
     for p, steps in commands:
         rig.command(p)
         rig.advance(steps)
@@ -79,7 +79,7 @@ def test_nor_does_one_without_damping_after_a_step(p0, p1, mass, l0):
     except ParameterError:
         return
     rig = Simulation([model], longest_step(model))
-    rig.reset([p0], [equilibrium(model, p0)], [0.0])
+    rig.reset([p0], [rest_position(model, p0)], [0.0])
     rig.command(p1)
     rig.advance(2000)
     assert np.all(np.isfinite(state(rig)))

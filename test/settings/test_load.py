@@ -99,7 +99,7 @@ def test_an_identified_file_makes_the_same_joint(file):
         ({}, {'mass': 'a'}, r"^mass = 'a' is not allowed: give a number, above 0 and at most 1"),
         ({}, {'joint': 'elbow'}, r"^joint = 'elbow' is not allowed: give one of load, parallel"),
         ({}, {'muscles': ['a', 'b']}, r'^dmsp_20_400n describes 2 joints, a, b: give a file '),
-        ({'effects.slak.share': 1.0}, {}, r'^effects\.slak is not known: give one of '),
+        ({'effects.slak.share': 1.0}, {}, r'^effects\.slak is not known: was slack or '),
         (['mass=10'], {}, r"^values = \['mass=10'\] is not allowed: give values by the names"),
     ],
 )

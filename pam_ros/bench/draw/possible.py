@@ -15,7 +15,7 @@ from pam_ros.bench.references import Reference, reference_of
 from pam_ros.bench.scenario import Change, Scenario
 from pam_ros.errors import PamError
 from pam_ros.rig import statics
-from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.rig.equilibrium import rest_position
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import flattened
 
@@ -81,7 +81,7 @@ def draw_start(
         pressures = tuple(
             digits(highest * max(mean + one, 0.0)) for one in halves[: len(joint.muscles)]
         )
-        start = equilibrium(joint.at_start, pressures)
+        start = rest_position(joint.at_start, pressures)
         if low + spare <= start <= high - spare and _all_pull(joint, pressures, start):
             return pressures, start
     raise ImpossibleError('no initial pressure was found')

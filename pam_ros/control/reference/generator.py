@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The reference of a joint for programs that step a control law themselves."""
 
+from __future__ import annotations
+
 from math import isfinite
 
 import numpy as np

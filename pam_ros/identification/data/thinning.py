@@ -21,7 +21,7 @@ from pam_ros.identification.data.segment import (
     Segment,
 )
 from pam_ros.rig import statics
-from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.rig.equilibrium import rest_position
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
@@ -50,7 +50,7 @@ def coarse_period(model: Joint, longest: float = PERIODS[1]) -> float:
         return float(np.clip(PHASE / np.sqrt(_stiffest(model) / model.inertia), *periods))
     muscle = model.muscle
     ends = (0.0, muscle.p_max)
-    k = max(float(muscle.stiffness(p, equilibrium(model, p) / muscle.l0)) for p in ends)
+    k = max(float(muscle.stiffness(p, rest_position(model, p) / muscle.l0)) for p in ends)
     return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *periods))
 
 

@@ -158,5 +158,6 @@ class PamSim(TickingNode):
 
     def _commands(self) -> Health:
         health = sim_health.commands(self._plant, self._bad)
-        self._waits.look_for_commands(health.message if health.level is Level.WARN else '')
+        stopped = health.level is Level.WARN and any(self._plant.has_timed_out)
+        self._waits.look_for_commands(health.message if stopped else '')
         return health

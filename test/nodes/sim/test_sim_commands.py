@@ -91,6 +91,19 @@ def test_bad_commands_are_clamped_or_refused_counted_and_named(watch):
 
 
 @pytest.mark.at_any_pace
+def test_commands_in_kpa_are_mentioned(watch):
+    with Program('pam_sim', parameters={'command_timeout': 0.0}) as sim:
+        watch.status('commands', lambda s, v: s.message == 'no command yet')
+        watch.command(300.0)
+        status, _ = watch.status('commands', lambda s, v: 'Pa only' in s.message)
+        assert status.level == DiagnosticStatus.WARN
+        assert status.message.startswith('commands reach 300 Pa only')
+        watch.peer.until(lambda: 'are these in kPa or bar' in sim.output, 'the line of the log')
+        watch.command(300e3)
+        watch.status('commands', lambda s, v: s.message == 'commanded')
+
+
+@pytest.mark.at_any_pace
 def test_silence_vents_and_a_new_command_is_obeyed(watch):
     with Program('pam_sim', parameters={'command_timeout': 0.3}):
         watch.command(4e5)
