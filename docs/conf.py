@@ -33,6 +33,9 @@ NAVIGATION = {
     'Programs': (
         'docs/simulator',
         'docs/controller',
+        'docs/controller_faults',
+        'docs/controller_disturbances',
+        'docs/controller_results',
         'docs/bench',
         'docs/cluster',
         'docs/command',

@@ -52,7 +52,7 @@ def left_alone(plant, push):
     return 0.5 * float(np.ptp(y[-1000:]))
 
 
-# The ratios of docs/controller.md, less what noise adds to half of a range.
+# The ratios of docs/controller_disturbances.md, less what noise adds to half of a range.
 @pytest.mark.parametrize(('frequency', 'least'), [(0.5, 13.0), (1.0, 9.0), (2.0, 7.0), (3.0, 8.0)])
 @pytest.mark.parametrize('lag', [(), LAG], ids=['nominal', 'configured lag'])
 def test_a_push_moves_the_load_many_times_less_than_at_a_held_pressure(frequency, least, lag):
