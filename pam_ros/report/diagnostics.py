@@ -19,7 +19,8 @@ Array = NDArray[np.float64]
 BATCHES = 20
 CONFIDENCE = 0.95
 LJUNG = 2.576  # quantile of the normal distribution for bands that contain 99 %
-COHERENCE_WINDOWS = 8  # fewest windows for which a coherence is significant
+COHERENCE_WINDOWS = 8  # fewest windows of a coherence; fewer hardly distinguish it from chance
+SHORTEST = 8  # samples of a window
 
 
 @dataclass(frozen=True)
@@ -131,23 +132,23 @@ def coherence(
 ) -> tuple[Array, Array, float]:
     """Return (f in Hz, coherence of residual and input, its 95 % level for unrelated signals).
 
-    The level is 1 - 0.05^(1/(L - 1)) with L independent windows; NaN if L is below 8.
+    The level is 1 - 0.05^(1/(L - 1)) with L independent windows, and 1 with at most one. Windows
+    last *window* s, or less where these are fewer than 8.
     """
     size = _window(residuals, period, window)
+    while size > SHORTEST and _windows(residuals, size) < COHERENCE_WINDOWS:
+        size = max(SHORTEST, round(0.8 * size))
     n = size // 2 + 1
     both = np.zeros(n, dtype=complex)
     power_u, power_e = np.zeros(n), np.zeros(n)
-    windows = 0.0
     for u, e in zip(inputs, residuals, strict=True):
         if e.size < size:
             continue
         both += e.size * csd(u, e, 1.0 / period, nperseg=size)[1]
         power_u += e.size * welch(u, 1.0 / period, nperseg=size)[1]
         power_e += e.size * welch(e, 1.0 / period, nperseg=size)[1]
-        windows += e.size / size
-    level = float('nan')
-    if windows >= COHERENCE_WINDOWS:
-        level = 1.0 - 0.05 ** (1.0 / (windows - 1.0))
+    windows = _windows(residuals, size)
+    level = 1.0 - 0.05 ** (1.0 / (windows - 1.0)) if windows > 1.0 else 1.0
     with np.errstate(divide='ignore', invalid='ignore'):
         found = np.asarray(np.abs(both) ** 2 / (power_u * power_e), dtype=np.float64)
     return _even_frequencies(size, period), np.nan_to_num(found[1:]), level
@@ -182,4 +183,9 @@ def _lagged(a: Array, b: Array, before: int, after: int) -> Array:
 
 def _window(parts: Sequence[Array], period: float, window: float) -> int:
     longest = max(part.size for part in parts)
-    return max(8, min(round(window / period), longest))
+    return max(SHORTEST, min(round(window / period), longest))
+
+
+def _windows(parts: Sequence[Array], size: int) -> float:
+    """Return how many windows of *size* samples the parts that are long enough contain."""
+    return sum(part.size / size for part in parts if part.size >= size)

@@ -3,6 +3,7 @@
 """``report.html``: a page that needs no other files, for the owner of the rig."""
 
 from itertools import pairwise
+from pathlib import Path
 
 import jinja2
 import numpy as np
@@ -23,8 +24,10 @@ from pam_ros.recording.warning_list import warning_list
 from pam_ros.report import plots, rows, style
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
+from pam_ros.report.remainder import remainder_of, structure_in_words
 from pam_ros.report.runs import STAGES, Run
 from pam_ros.report.time_plots import Curve
+from pam_ros.report.use import uses_of
 
 LONGEST_LABEL = 30  # most characters of the names of effects above a plot
 
@@ -34,12 +37,13 @@ def page(
     runs: list[Run],
     source: Provenance,
     content: Table,
+    file: Path,
     no_file: str = '',
 ) -> str:
-    """Return the page as HTML, with its styles and plots; it has no script and loads no files.
+    """Return the page as HTML, with its styles, plots and a short script; it loads no files.
 
-    *runs* and *content* are those of the result, see ``runs.py`` and ``numbers.py``. *no_file* is
-    the reason why there is no ``identified.yaml``, empty if there is one.
+    *runs* and *content* are those of the result, see ``runs.py`` and ``numbers.py``. *file* is the
+    path of ``identified.yaml``, and *no_file* the reason why there is none, empty if there is one.
     """
     curves = curves_of(result, runs)
     scale = scale_for(result.unit, result.stages[-1].fit_error)
@@ -54,7 +58,9 @@ def page(
     return environment.get_template('report.html.j2').render(
         result=result,
         verdict=result.verdict.heading,
+        remainder=remainder_of(result, scale),
         not_excluded=not_excluded(result, scale),
+        structure=structure_in_words(result.structure, result.regressors),
         curves=curves,
         style=style,
         interval=interval,
@@ -70,6 +76,7 @@ def page(
         inputs=inputs_of(result, source),
         content=content,
         source=source,
+        uses=[] if no_file else uses_of(file),
         no_file=no_file,
     )
 

@@ -161,7 +161,7 @@ def _correlation(
         _narrow(
             'coherence',
             'Coherence with the input',
-            'Unrelated signals stay within the band (95 %).',
+            '95 % of the values of unrelated signals are within the band below the line.',
             residual_plots.coherence(runs, curves),
         ),
     ]

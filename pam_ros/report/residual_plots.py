@@ -93,14 +93,14 @@ def coherence(runs: list[Run], curves: list[Curve]) -> Figure:
     figure, ax = style.panel()
     period = _period(runs, SLOW)
     inputs = [diagnostics.resampled(run.t, run.drive, period) for run in runs]
-    level = float('nan')
+    level = 1.0
     for curve in curves:
         f, found, level = diagnostics.coherence(
             inputs, _thinned(runs, curve.stage, period), period
         )
         ax.plot(*_log_thinned(f, found), **curve.look)
-    if np.isfinite(level):
-        ax.axhspan(0.0, level, color=style.NOISE, alpha=0.16, linewidth=0.0)
+    ax.axhspan(0.0, level, color=style.NOISE, alpha=0.16, linewidth=0.0)
+    ax.axhline(level, color=style.NOISE, linewidth=1.0)  # visible where the band is low
     ax.set_xscale('log')
     style.log_axis(ax.xaxis)
     ax.set_ylim(0.0, 1.05)

@@ -138,13 +138,21 @@ def _tint(ax: Axes, t: Array, held: NDArray[np.bool_]) -> None:
 def errors(
     sizes: list[tuple[Curve, Size, Size]], noise: float, scale: Scale, width: int
 ) -> Figure:
-    """Return the RMSE of each model, fitted and held out, with its interval and the noise."""
-    height = 34 * len(sizes)
+    """Return the RMSE of each model, fitted and held out, with its interval and the noise.
+
+    The name of each model stands above its row.
+    """
+    height = 48 * len(sizes)
     figure, (ax,) = style.stacked(width, (height,))
     reached = []
     for row, (curve, fit, held) in enumerate(sizes):
         y = len(sizes) - 1 - row
-        for size, offset, filled in ((fit, 0.16, False), (held, -0.16, True)):
+        ax.text(
+            0.0, y + 0.34, curve.label, transform=ax.get_yaxis_transform(),
+            color=style.INK, va='center', zorder=3,
+            bbox={'facecolor': 'white', 'edgecolor': 'none', 'alpha': 0.85, 'pad': 1.0},
+        )  # fmt: skip
+        for size, offset, filled in ((fit, 0.06, False), (held, -0.2, True)):
             if not np.isfinite(size.rmse) or size.rmse <= 0.0:
                 continue
             low, x, high = (scale.factor * v for v in (size.low, size.rmse, size.high))
@@ -158,7 +166,7 @@ def errors(
     if noise > 0.0:
         reached.append(scale.factor * noise)
         ax.axvline(scale.factor * noise, **style.NOISE_LINE)
-    ax.set_ylim(-0.6, len(sizes) - 0.4)
+    ax.set_ylim(-0.45, len(sizes) - 0.45)
     ax.set_yticks([])
     ax.spines['left'].set_visible(False)
     if reached:

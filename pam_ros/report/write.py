@@ -103,7 +103,9 @@ def write_report(folder: Path, result: Identification, source: Provenance) -> No
     content = numbers(result, runs, source)
     parts: dict[str, Callable[[], str]] = {
         'report.json': lambda: to_json(content),
-        'report.html': lambda: page(result, runs, source, content, no_file),
+        'report.html': lambda: page(
+            result, runs, source, content, folder / 'identified.yaml', no_file
+        ),
         'residual.csv': lambda: residual_csv(runs, result.quantity, result.unit),
     }
     with replaced(folder) as new:

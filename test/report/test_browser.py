@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """report.html in a real browser, at the width of a desk and of a telephone."""
 
+from pathlib import Path
+
 import pytest
 
 from pam_ros.report.numbers import numbers
@@ -27,7 +29,7 @@ def test_nothing_is_missing_overlapping_or_sticking_out(html, look):
 def test_long_names_many_recordings_and_three_effects_find_their_room(look):
     result, source = results.crowded_result()
     runs = runs_of(result)
-    html = page(result, runs, source, numbers(result, runs, source))
+    html = page(result, runs, source, numbers(result, runs, source), Path('/tmp/identified.yaml'))
     for width, found in look(html).items():
         assert found['problems'] == {name: [] for name in found['problems']}, width
 

@@ -6,6 +6,7 @@ import json
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from pam_ros.rig.standard_joints import single_muscle_joint
 
 SECTIONS = ['error', 'simulated', 'residual', 'shape', 'candidates', 'parameters', 'data', 'next']
 SECTIONS.append('provenance')
+FILE = Path('/reports/monday/identified.yaml')
 VOID = {'meta', 'br', 'img', 'link', 'input', 'hr'}
 
 
@@ -49,7 +51,7 @@ class Outline(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data):
-        if 'style' not in self.open:
+        if not {'style', 'script'} & set(self.open):
             self.text.append(data)
 
 
@@ -62,7 +64,7 @@ def outline(html):
 
 def rendered(parts):
     result, source, runs = parts
-    return page(result, runs, source, numbers(result, runs, source))
+    return page(result, runs, source, numbers(result, runs, source), FILE)
 
 
 @pytest.fixture(scope='module')
@@ -73,7 +75,8 @@ def friction_page(reports, friction):
 @pytest.mark.slow
 def test_page_is_whole_and_needs_nothing_else(html):
     found = outline(html)
-    assert not {'script', 'iframe', 'link', 'object'} & set(found.tags)
+    assert not {'iframe', 'link', 'object'} & set(found.tags)
+    assert found.tags.count('script') == 1  # it has no source: see the links
     assert all(link.startswith('#') for link in found.links)
     assert not re.search(r'@import|url\((?!#)', html)
     assert len(found.ids) == len(set(found.ids))
@@ -83,7 +86,8 @@ def test_page_is_whole_and_needs_nothing_else(html):
 def test_sections_come_in_the_order_in_which_they_are_read(html):
     ids = outline(html).ids
     assert [i for i in ids if i in SECTIONS] == list(SECTIONS)
-    assert ids.index('verdict') < ids.index('not-excluded') < ids.index('error')
+    first = [ids.index(name) for name in ('verdict', 'remainder', 'not-excluded', 'use', 'error')]
+    assert first == sorted(first)
 
 
 def test_no_cell_shows_the_inside_of_the_program(html):
@@ -220,4 +224,24 @@ def test_a_model_that_diverges_is_drawn_and_its_numbers_stay_finite(clean, value
     runs = runs_of(changed)
     content = numbers(changed, runs, source)
     assert json.loads(to_json(content))['error']['declared']['details']['fit']['maximum'] > 1e5
-    assert outline(page(changed, runs, source, content)).ids
+    assert outline(page(changed, runs, source, content, FILE)).ids
+
+
+def test_lines_that_use_the_result_are_there_unless_there_is_no_file(friction, friction_page):
+    text = ' '.join(outline(friction_page).text)
+    assert text.count('/identified.yaml') == 3
+    result, source, runs = friction
+    content = numbers(result, runs, source)
+    html = page(result, runs, source, content, FILE, 'the sign of a5 is wrong')
+    assert str(FILE) not in html
+    assert 'There is no identified.yaml: the sign of a5 is wrong.' in html
+
+
+def test_an_error_that_is_not_explained_has_another_colour(friction, friction_page):
+    result, source, runs = friction
+    assert 'class="remainder" id="remainder"' in friction_page
+    noise = replace(result.noise, sigma=result.stages[-1].held_error / 8.2)
+    html = rendered((replace(result, noise=noise), source, runs))
+    assert 'class="remainder warn" id="remainder"' in html
+    assert '<li class="stage2 warn">' in html
+    assert '(8.2 noise floors)' in html

@@ -110,6 +110,24 @@ def test_coherence_is_high_where_related_and_below_its_level_elsewhere():
     assert f[-1] == pytest.approx(50.0)
 
 
+@pytest.mark.parametrize('lengths', [(2000,), (300, 300), (400, *12 * [60])])
+def test_coherence_of_short_parts_has_a_level_that_unrelated_signals_keep(lengths):
+    rng = np.random.default_rng(8)
+    below = []
+    for _ in range(100):
+        u, e = ([rng.standard_normal(n) for n in lengths] for _ in range(2))
+        _, found, level = diagnostics.coherence(u, e, 0.02)
+        assert level < 0.5
+        below.append(np.mean(found < level))
+    assert np.mean(below) == pytest.approx(0.95, abs=0.05)
+
+
+def test_level_of_one_window_excludes_nothing():
+    rng = np.random.default_rng(9)
+    u, e = rng.standard_normal(8), rng.standard_normal(8)
+    assert diagnostics.coherence([u], [e], 0.02)[2] == 1.0
+
+
 def test_a_residual_of_zero_has_no_statement():
     zero = [np.zeros(500)]
     assert np.all(diagnostics.autocorrelation(zero, 5)[0] == 0.0)

@@ -113,3 +113,12 @@ def test_autocorrelation_has_its_lags_in_seconds(loop_run):
     assert line.get_ydata()[0] == 1.0
     # A square wave that turns three times in 40 s: of 38 s, 2 s around each turn do not agree.
     assert line.get_ydata()[-1] == pytest.approx((38.0 - 2.0 * 6.0) / 40.0, abs=0.01)
+
+
+def test_coherence_has_its_band_also_for_a_short_run():
+    rng = np.random.default_rng(3)
+    run = run_with(1e-4 * rng.standard_normal(600), 3e5 + 1e5 * rng.standard_normal(600))
+    with style.styled():
+        figure = residual_plots.coherence([run], BOTH[:1])
+    (band,) = figure.axes[0].patches
+    assert 0.2 < band.get_extents().transformed(figure.axes[0].transData.inverted()).y1 < 0.5

@@ -88,3 +88,7 @@ def test_errors_stand_at_their_rmse_with_their_interval():
     low, high = figure.axes[0].get_xlim()
     assert low < 0.05
     assert high > 6.0
+    names = {text.get_text(): text.get_position()[1] for text in figure.axes[0].texts}
+    assert list(names) == [CURVES[0].label, CURVES[2].label]
+    for label, row in zip(names, (dots[:2], dots[2:]), strict=True):
+        assert all(0.0 < names[label] - dot.get_ydata()[0] < 0.6 for dot in row)
