@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """report.html in a real browser, at the width of a desk and of a telephone."""
 
+import html as markup
+import json
+import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -9,7 +13,9 @@ import pytest
 from pam_ros.report.numbers import numbers
 from pam_ros.report.page import page
 from pam_ros.report.runs import runs_of
+from pam_ros.report.use import uses_of
 from support import results
+from support.browsing import FLAGS
 
 
 @pytest.mark.needs_numba
@@ -51,3 +57,32 @@ def test_the_measuring_finds_what_is_wrong(look):
         assert problems['small'] == ['p: 6.0 px']
         assert problems['empty'] == ['p']
         assert problems['missing'] == ['H2 ']
+
+
+CLICK = """<script>
+const copied = [];
+const own = async (text) => { if (%s) throw new Error('refused'); copied.push(text); };
+Object.defineProperty(navigator, 'clipboard', { value: { writeText: own } });
+addEventListener('load', async () => {
+  const buttons = [...document.querySelectorAll('button.copy')];
+  buttons[1].click();
+  await null; await null; await null;
+  const found = [copied, String(getSelection()), buttons[1].textContent, buttons[0].textContent];
+  document.body.innerHTML = '<pre id="found"></pre>';
+  document.getElementById('found').textContent = JSON.stringify(found);
+});
+</script></body>"""
+
+
+@pytest.mark.parametrize('is_refused', [False, True])
+def test_a_click_copies_a_line_or_selects_it(browser, reports, friction, tmp_path, is_refused):
+    folder = reports(friction)
+    html = (folder / 'report.html').read_text(encoding='utf-8')
+    file = tmp_path / 'page.html'
+    file.write_text(html.replace('</body>', CLICK % json.dumps(is_refused)), encoding='utf-8')
+    command = [browser, *FLAGS, f'--user-data-dir={tmp_path / "profile"}', file.as_uri()]
+    done = subprocess.run(command, capture_output=True, check=True, encoding='utf-8', timeout=240)
+    found = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.DOTALL)
+    line = uses_of(folder / 'identified.yaml')[1].line
+    expected = [[], line, 'Selected: press Ctrl+C'] if is_refused else [[line], '', 'Copied']
+    assert json.loads(markup.unescape(found[1])) == [*expected, 'Copy']
