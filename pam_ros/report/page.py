@@ -27,8 +27,21 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.report.remainder import remainder_of, structure_in_words
 from pam_ros.report.runs import STAGES, Run
 from pam_ros.report.time_plots import Curve
+from pam_ros.report.tried import rivals_of, why_not
 from pam_ros.report.use import uses_of
 
+CONTENTS = (
+    ('use', 'Use this result'),
+    ('error', 'Error'),
+    ('simulated', 'Measured and simulated'),
+    ('residual', 'Noise'),
+    ('shape', 'Residual'),
+    ('candidates', 'Effects tried'),
+    ('parameters', 'Parameters'),
+    ('data', 'Data'),
+    ('next', 'Next experiment'),
+    ('provenance', 'Provenance'),
+)
 LONGEST_LABEL = 30  # most characters of the names of effects above a plot
 
 
@@ -61,6 +74,7 @@ def page(
         remainder=remainder_of(result, scale),
         not_excluded=not_excluded(result, scale),
         structure=structure_in_words(result.structure, result.regressors),
+        contents=CONTENTS,
         curves=curves,
         style=style,
         interval=interval,
@@ -135,9 +149,7 @@ def not_excluded(result: Identification, scale: Scale) -> list[str]:
                 'distinguish them.'
             )
         else:
-            sentences.append(
-                f'No other effect of the library explains these data as well as {name}.'
-            )
+            sentences += _nearest(finding.name, result)
         if finding.or_constants:
             sentences.append(
                 f'Instead of {name}, constants a1 to a6 far from the nominal ones explain these '
@@ -160,4 +172,22 @@ def not_excluded(result: Identification, scale: Scale) -> list[str]:
     if result.untestable:
         names = listed([name_in_words(name) for name in result.untestable])
         sentences.append(f'These data cannot show {names}: the table below states what to record.')
+    return sentences
+
+
+def _nearest(name: str, result: Identification) -> list[str]:
+    """Return sentences on how well other effects explain the data instead of *name*."""
+    chosen, sentences = name_in_words(name), []
+    rivals = rivals_of(name, result)
+    if not rivals:
+        return [f'No other effect of the library explains these data as well as {chosen}.']
+    if not any(rival.is_last for _, rival in rivals):
+        sentences.append(
+            'In the last model, no other effect of the library explains these data as well as '
+            f'{chosen}.'
+        )
+    for candidate, rival in rivals:
+        why = why_not(candidate, rival, result) or 'the table below has the reason for the choice'
+        compared = rival.compared()
+        sentences.append(f'{compared[0].upper()}{compared[1:]}, but {why}.')
     return sentences

@@ -19,12 +19,13 @@ from pam_ros.identification.wording import (
     scale_for,
 )
 from pam_ros.recording.quantities import quantity_in
+from pam_ros.report import tried as tried_effects
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES
 from pam_ros.settings.nominal import NominalJoint
 
-ORDER = {'chosen': 0, 'ambiguous': 1, 'rejected': 2, 'untestable': 3}
+ORDER = {kind: k for k, kind in enumerate((*tried_effects.OPEN, 'rejected', 'untestable'))}
 
 
 @dataclass(frozen=True)
@@ -56,40 +57,57 @@ def errors(content: Table, scale: Scale, labels: dict[int, str]) -> list[Row]:
     return found
 
 
-def rounds(result: Identification, scale: Scale) -> list[tuple[str, list[Row]]]:
-    """Return for each round of the search the base model and the candidates added to it.
+@dataclass(frozen=True)
+class Round:
+    """The effects that were added to a model: rows to be seen, and those that are folded."""
 
-    Within a round the candidates are in the order of ``ORDER``, then of their score.
+    title: str
+    shown: list[Row]
+    folded: list[Row]
+
+    @property
+    def summary(self) -> str:
+        """How many rows are folded, and why."""
+        count = len(self.folded)
+        hidden = sum(row.kind == 'untestable' for row in self.folded)
+        cannot = f', {hidden} of them since these data cannot show it' if hidden else ''
+        return f'{count} more effect{"" if count == 1 else "s"}, not chosen{cannot}'
+
+
+def rounds(result: Identification, scale: Scale) -> list[Round]:
+    """Return the rounds of the search.
+
+    Within a round the candidates are in the order of ``ORDER``, then of their score. Those that
+    were chosen or nearly chosen are shown; without any, the best one is.
     """
-    found: dict[tuple[str, ...], list[Candidate]] = {}
-    for candidate in result.candidates:
-        found.setdefault(candidate.parents, []).append(candidate)
-    return [
-        (
-            'In addition to ' + (listed([name_in_words(name) for name in parents]) or 're-tuning'),
-            [
-                _candidate(candidate, scale)
-                for candidate in sorted(
-                    tried, key=lambda c: (ORDER.get(c.decision, 4), -c.score_fall)
-                )
-            ],
-        )
-        for parents, tried in found.items()
-    ]
+    found = []
+    for parents, tried in tried_effects.rounds_of(result).items():
+        rows = [
+            _candidate(candidate, result, scale)
+            for candidate in sorted(
+                tried,
+                key=lambda c: (ORDER[tried_effects.kind_of(c, result)], -c.score_fall),
+            )
+        ]
+        count = sum(row.kind in tried_effects.OPEN for row in rows) or 1
+        base = listed([name_in_words(name) for name in parents]) or 're-tuning'
+        found.append(Round(f'In addition to {base}', rows[:count], rows[count:]))
+    return found
 
 
-def _candidate(candidate: Candidate, scale: Scale) -> Row:
+def _candidate(candidate: Candidate, result: Identification, scale: Scale) -> Row:
+    decision, reason = tried_effects.decision_of(candidate, result)
     cells = {
         'effect': name_in_words(candidate.effect),
         'error': scale.text(candidate.choose_error),
         'bar': round(100.0 * min(1.0, 1.0 - candidate.gain), 1),
-        'score': number(candidate.score_fall, 3),
+        'score': number(candidate.score_fall, 4 if candidate.score_fall >= 1e3 else 3),
         'gain': percent(candidate.gain),
         'p': probability(candidate.p),
-        'decision': candidate.decision,
-        'reason': candidate.reason,
+        'decision': decision,
+        'reason': reason,
     }
-    return Row(cells, candidate.decision)
+    return Row(cells, tried_effects.kind_of(candidate, result))
 
 
 def parameters(result: Identification, nominal: NominalJoint) -> list[Row]:

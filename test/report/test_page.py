@@ -245,3 +245,9 @@ def test_an_error_that_is_not_explained_has_another_colour(friction, friction_pa
     assert 'class="remainder warn" id="remainder"' in html
     assert '<li class="stage2 warn">' in html
     assert '(8.2 noise floors)' in html
+
+
+def test_contents_lead_to_every_section(friction_page):
+    found = outline(friction_page)
+    links = [link[1:] for link in found.links if link[1:] in found.ids]
+    assert [name for name in links if name in ('use', *SECTIONS)] == ['use', *SECTIONS]
