@@ -8,6 +8,7 @@ from pathlib import Path
 import jinja2
 import numpy as np
 
+from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.identification import Identification
 from pam_ros.identification.result import Verdict
 from pam_ros.identification.wording import (
@@ -62,6 +63,7 @@ def page(
     scale = scale_for(result.unit, result.stages[-1].fit_error)
     environment = environment_of('report')
     library = result.stages[0].model.library
+    signature = {effect.name: effect.signature for effect in library}
     environment.filters |= {
         'words': name_in_words,
         'number': number,
@@ -73,6 +75,7 @@ def page(
         verdict=result.verdict.heading,
         remainder=remainder_of(result, scale),
         not_excluded=not_excluded(result, scale),
+        signatures=[signature[effect_of(finding.name)] for finding in result.effects],
         structure=structure_in_words(result.structure, result.regressors),
         contents=CONTENTS,
         curves=curves,

@@ -249,5 +249,11 @@ def test_an_error_that_is_not_explained_has_another_colour(friction, friction_pa
 
 def test_contents_lead_to_every_section(friction_page):
     found = outline(friction_page)
-    links = [link[1:] for link in found.links if link[1:] in found.ids]
-    assert [name for name in links if name in ('use', *SECTIONS)] == ['use', *SECTIONS]
+    names = ['use', *SECTIONS]
+    assert {*names} <= {*found.ids}
+    assert found.links[: len(names)] == [f'#{name}' for name in names]
+
+
+def test_an_effect_has_its_trace_and_leads_to_the_plots_that_show_it(friction_page):
+    trace = next(effect.signature for effect in EFFECTS if effect.name == 'coulomb_friction')
+    assert f'Its trace: {trace}; see <a href="#shape">' in friction_page
