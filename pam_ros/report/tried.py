@@ -96,22 +96,28 @@ def rivals_of(name: str, result: Identification) -> list[tuple[Candidate, Rival]
 def why_not(candidate: Candidate, rival: Rival, result: Identification) -> str:
     """Return what speaks for the chosen effect instead of its *rival*, '' if only the search does.
 
-    The rival contains the chosen effect, has more parameters, or has a larger error.
+    The chosen effect explains nearly as much, by the score or by the error of samples that were
+    not fitted, and the rival contains it or has more parameters; or its error is smaller.
     """
-    library = {effect.name: effect for effect in result.stages[0].model.library}
-    name, chosen = name_in_words(rival.name), name_in_words(rival.chosen)
-    broader = library.get(effect_of(rival.name))
-    if broader is not None and effect_of(rival.chosen) in broader.contains:
-        return f'{name} contains {chosen}, which is simpler and explains nearly as much'
-    rows = [one for one in result.candidates if one.effect == rival.chosen]
-    other = next((one for one in rows if one.decision == 'chosen'), None)
-    if other is None:
+    rows = [one for one in result.candidates if one.decision == 'chosen']
+    other = next((one for one in rows if one.effect == rival.chosen), None)
+    own = frozenset(result.added) if rival.is_last else {*candidate.parents, rival.chosen}
+    model = next((one for one in rows if {*one.parents, one.effect} == own), None)
+    if other is None or model is None:
         return ''
-    own, fewer = (sum(p.low != p.high for p in one.parameters.values()) for one in
-                  (candidate, other))  # fmt: skip
-    if fewer < own:
-        return f'{chosen} has fewer parameters ({fewer} instead of {own})'
-    if other.parents == candidate.parents and other.choose_error < candidate.choose_error:
+    error, room = candidate.choose_error, 1.0 + CRITERIA.gain
+    if rival.more > CRITERIA.margin and model.choose_error > room * error:
+        return ''
+    name, chosen = name_in_words(rival.name), name_in_words(rival.chosen)
+    library = {effect.name: effect for effect in result.stages[0].model.library}
+    if effect_of(rival.chosen) in library[effect_of(rival.name)].contains:
+        return f'{name} contains {chosen}, which is simpler and explains nearly as much'
+    more, fewer = (
+        sum(p.low != p.high for p in one.parameters.values()) for one in (candidate, other)
+    )
+    if fewer < more:
+        return f'{chosen} has fewer parameters ({fewer} instead of {more})'
+    if model.choose_error < error:
         return f'with {chosen} the error of samples that were not fitted is smaller'
     return ''
 

@@ -142,3 +142,16 @@ def test_what_was_not_nearly_chosen_is_folded(made):
     )
     assert third.shown[0].cells['effect'] == 'payload'  # the best of those that were rejected
     assert third.summary == '1 more effect, not chosen'
+
+
+def test_a_simpler_effect_is_no_reason_where_it_explains_less(made):
+    first = ('coulomb_friction', (), 600.0, 'rejected', 'x', 1)
+    other = ('leak', ('coulomb_friction',), 6340.0, 'rejected', 'the error is 40 % larger', 3)
+    result = made(*CHOSEN, first, other)
+    smaller = replace(result.candidates[-1], choose_error=0.9e-4)
+    result = replace(result, candidates=(*result.candidates[:-1], smaller))
+    assert tried.decision_of(smaller, result) == (
+        'lower score',
+        'with leak instead of pressure lag the score of the last model is lower by 21; the error '
+        'is 40 % larger',
+    )
