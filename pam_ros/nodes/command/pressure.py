@@ -69,7 +69,7 @@ def command_pressure(node: TickingNode, graph: Graph, options: Options) -> Steps
     if is_once:  # otherwise other publishers are found while it goes on
         yield from graph.survey()
     every = dict.fromkeys([*topics, one, array])
-    _warn(graph, every)
+    others = _warn(graph, every)
     for topic, publisher in zip(topics, commands.publishers, strict=True):
         yield from matched(graph, topic, publisher)
     commands.publish(pressures)
@@ -89,7 +89,8 @@ def command_pressure(node: TickingNode, graph: Graph, options: Options) -> Steps
     if is_once:
         return
     end = None if options.hold is None else monotonic() + options.hold
-    yield from _repeat(node, graph, commands, pressures, topics, period or UNKNOWN_RIG, end, every)
+    often = period or UNKNOWN_RIG
+    yield from _repeat(node, graph, commands, pressures, topics, often, end, every, others)
 
 
 def _receivers(graph: Graph, topic: str) -> list[str]:
@@ -149,10 +150,13 @@ def _repeat(
     period: float,
     end: float | None,
     every: dict[str, None],
+    known: set[str],
 ) -> Steps[None]:
-    """Publish *pressures* every *period* s until *end*, or until a signal requests the end."""
+    """Publish *pressures* every *period* s until *end*, or until a signal requests the end.
+
+    *known* are the other publishers of the topics *every* of which the user was warned.
+    """
     node.ticker.start(1.0 / period, monotonic_ns())
-    known = {name for topic in every for name in graph.senders(topic)}
     checked = monotonic()
     while end is None or monotonic() < end:
         commands.publish(pressures)

@@ -77,7 +77,7 @@ REFUSED = [
     (['-p', 'publish_rate:=5000.0'], ['publish_rate', 'physics_rate']),
     (['-p', 'a3:=5.0'], ['stiffness']),
     (['-p', 'effects.nosuch.level:=3.0'], ['effects.nosuch', 'dead_time']),
-    (['-p', 'effects.creep.nonsense:=1.0'], ['effects.creep.nonsense', 'give one of force']),
+    (['-p', 'effects.creep.zzz:=1.0'], ['effects.creep.zzz', 'give one of force']),
     (['-p', 'initial.creep.strain:=1.0'], ['initial.creep.strain', 'initial.pressure']),
     (['-p', 'effects.payload.mass:=-20.0'], ['effects.payload.mass = -20 kg', '-16 kg']),
     (['mass:=3.0'], ['mass:=3.0 is not a ROS argument', '-p before a parameter']),
