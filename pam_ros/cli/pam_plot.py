@@ -100,7 +100,8 @@ def _run(options: Options) -> None:
         return
     from pam_ros.plot.server import PageServer, content
 
-    made = content(drawn, found.start, found.end, found.end, is_live=False)
+    note = shown('; '.join(found.notes))
+    made = content(drawn, found.start, found.end, found.end, note=note, is_live=False)
     server = PageServer(lambda: made, options.port)
     try:
         server.start()

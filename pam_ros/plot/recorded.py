@@ -11,8 +11,11 @@ from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
 from pam_ros.plot.panels import Curves
+from pam_ros.plot.restarts import TopicTimes, one_after_another
 from pam_ros.plot.topics import TOPICS, Key, muscles_of, numbers
+from pam_ros.recording.bag.clocks import Samples, received_times, stamp_of, timed
 from pam_ros.recording.bag.decode import Topic
+from pam_ros.recording.bag.simulated_clock import clock_times, on_simulated_clock
 from pam_ros.recording.bag.source import BagSource, Message, open_bag
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.read import BAG_SUFFIXES
@@ -55,11 +58,12 @@ def read(
 ) -> RecordedCurves:
     """Return the curves of the recording at *path*: a rosbag2, one of its files, or a CSV file.
 
-    Stamps of a bag are the times at which its recorder received the messages, relative to the
-    first one. *namespace* selects one of several rigs in a bag; *mapping* gives the meaning of
-    columns of a CSV file, and *columns* are their names if the file has none; *sheet* is one
-    of a workbook, and *variable* one of a MATLAB file. Raises RecordingError if the recording
-    cannot be read, or if nothing can be drawn.
+    The time of a message in a bag is that of its header if it has one, as
+    :func:`pam_ros.recording.bag.read.read_bag` reads it, relative to the first one. Where time
+    goes back, the parts are one after another. *namespace* selects one of several rigs in a bag;
+    *mapping* gives the meaning of columns of a CSV file, and *columns* are their names if the file
+    has none; *sheet* is one of a workbook, and *variable* one of a MATLAB file. Raises
+    RecordingError if the recording cannot be read, or if nothing can be drawn.
     """
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
@@ -91,17 +95,39 @@ def _read_bag(path: Path, namespace: str | None) -> RecordedCurves:
     messages: dict[str, list[Message]] = {full: [] for full in found}
     for message in source.messages(list(found)):
         messages[message.topic].append(message)
-    origin = min((own[0].stamp for own in messages.values() if own), default=None)
-    if origin is None:
+    if not any(messages.values()):
         raise RecordingError(f'{path.name} has no message on {", ".join(found)}')
-    samples: dict[Key, tuple[Array, Array]] = {}
+    notes = list(source.notes)
+    of_topics: dict[str, tuple[list[Key], Samples]] = {}
     muscles: tuple[str, ...] = ()
     for full, own in messages.items():
-        if own:
-            samples |= _of_topic(path, source, found[full], own, origin)
-            muscles = muscles_of(found[full], _decoded(path, source, own, 0)) or muscles
-    end = max(float(t[-1]) for t, _ in samples.values()) if samples else 0.0
-    return _recorded(path, Curves(samples, muscles), end, '', tuple(source.notes))
+        if not own:
+            continue
+        keys, samples, names = _samples(path, source, found[full], own)
+        if keys:
+            of_topics[full] = keys, samples
+            muscles = names or muscles
+    stored = {full: samples for full, (_, samples) in of_topics.items()}
+    every = on_simulated_clock(stored, clock_times(source), notes)
+    commands = {full for full in every if TOPICS[found[full]].is_set_point}
+    timed_topics, _ = timed(path.name, every, commands, 'header', notes)
+    times, note = one_after_another(
+        {
+            full: TopicTimes(stored[full].received[one.kept], one.time)
+            for full, one in timed_topics.items()
+        }
+    )
+    origin = min((int(one.min()) for one in times.values()), default=0)
+    curves: dict[Key, tuple[Array, Array]] = {}
+    for full, time in times.items():
+        kept = timed_topics[full].kept
+        t = 1e-9 * (time - origin).astype(float)
+        t, columns = _sorted(full, t, [one[kept] for one in every[full].columns], notes)
+        for key, value in zip(of_topics[full][0], columns, strict=True):
+            curves[key] = _finite(t, value)
+    end = max((float(t[-1]) for t, _ in curves.values() if t.size), default=0.0)
+    notes += [note] if note else []
+    return _recorded(path, Curves(curves, muscles), end, '', tuple(notes))
 
 
 def _topics(path: Path, source: BagSource, namespace: str | None) -> dict[str, str]:
@@ -139,16 +165,41 @@ def _decoded(path: Path, source: BagSource, messages: list[Message], number: int
         raise RecordingError(f'{where}: {error}') from error
 
 
-def _of_topic(
-    path: Path, source: BagSource, name: str, messages: list[Message], origin: int
-) -> dict[Key, tuple[Array, Array]]:
-    """Return the curves of one topic."""
-    stamps = np.array([message.stamp - origin for message in messages], dtype=float) * 1e-9
-    rows: dict[Key, list[tuple[float, float]]] = {}
-    for i, t in enumerate(stamps):
-        for key, value in numbers(name, _decoded(path, source, messages, i)):
-            rows.setdefault(key, []).append((t, value))
-    return {key: _finite(*np.array(own).T) for key, own in rows.items()}
+def _samples(
+    path: Path, source: BagSource, name: str, messages: list[Message]
+) -> tuple[list[Key], Samples, tuple[str, ...]]:
+    """Return the curves of one topic, their samples (NaN where one is missing), and muscles."""
+    columns: dict[Key, list[float]] = {}
+    stamped = np.zeros(len(messages), dtype=np.int64)
+    muscles: tuple[str, ...] = ()
+    for k in range(len(messages)):
+        content = _decoded(path, source, messages, k)
+        stamped[k] = stamp_of(content)
+        muscles = muscles or muscles_of(name, content)
+        row = dict(numbers(name, content))
+        for key in row:
+            columns.setdefault(key, [np.nan] * k)
+        for key, column in columns.items():
+            column.append(row.get(key, np.nan))
+    values = [np.array(column) for column in columns.values()]
+    present = [np.isfinite(value) for value in values]
+    received = received_times(path.name, messages)
+    return list(columns), Samples(received, stamped, values, present), muscles
+
+
+def _sorted(
+    full: str, t: Array, columns: list[Array], notes: list[str]
+) -> tuple[Array, list[Array]]:
+    """Return the samples of a topic in the order of time."""
+    back = t[:-1] - t[1:]
+    if not np.any(back > 0.0):
+        return t, columns
+    notes.append(
+        f'{np.count_nonzero(back > 0.0)} of {t.size} messages of {full} are out of order by at '
+        f'most {back.max():.3g} s: they are sorted by their stamps'
+    )
+    order = np.argsort(t, kind='stable')
+    return t[order], [one[order] for one in columns]
 
 
 def _finite(t: Array, value: Array) -> tuple[Array, Array]:

@@ -17,8 +17,9 @@ class SimulatedTime:
     ns; the times of sending are those of one clock, the system's.
     """
 
-    def __init__(self) -> None:
-        """Start without any known time."""
+    def __init__(self, kept: int = KEPT) -> None:
+        """Start without any known time, and keep at least the last *kept* of them."""
+        self._kept = kept
         self._sent = array('q')
         self._time = array('q')
 
@@ -33,8 +34,8 @@ class SimulatedTime:
             return
         self._sent.append(sent)
         self._time.append(time)
-        if len(self._sent) > 2 * KEPT:
-            del self._sent[:KEPT], self._time[:KEPT]
+        if len(self._sent) > 2 * self._kept:
+            del self._sent[: self._kept], self._time[: self._kept]
 
     def at(self, sent: int) -> int | None:
         """Return the time of a message sent at *sent*, None until a later time was published."""

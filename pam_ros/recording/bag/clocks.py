@@ -5,20 +5,22 @@
 All times are in ns, as they are in ROS.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
+from pam_ros.recording.bag.source import Message
 from pam_ros.recording.series import COARSE
 
 Times = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 TIMES = ('header', 'received')
 LATENCY = (-2e-3, 0.5)  # s from the stamp of a header to its receipt; outside, clocks differ
+LATEST = 2**63 - 1  # ns: the largest time in ROS; an MCAP file can hold twice as much
 SIMULATED = 10**18  # ns: no real clock is before 2001
 TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 LATE_START = 10**9  # ns: a first time after 0 by more than this means that 0 is not a time
@@ -43,6 +45,26 @@ class Timed(NamedTuple):
     time: Times
     kept: Mask
     is_received: bool
+
+
+def received_times(name: str, messages: Sequence[Message]) -> Times:
+    """Return the times of receipt (n,) of the *messages* of one topic in the bag called *name*.
+
+    Raises RecordingError for a time that ROS cannot hold.
+    """
+    last = max(messages, key=lambda message: message.stamp)
+    if last.stamp > LATEST:
+        raise RecordingError(
+            f'{name}: {last.topic} has a message received at {last.stamp} ns: give stamps of at '
+            f'most {LATEST} ns'
+        )
+    return np.array([message.stamp for message in messages], dtype=np.int64)
+
+
+def stamp_of(message: Any) -> int:
+    """Return the stamp in the header of a message in ns, 0 if it has no header."""
+    stamp = getattr(getattr(message, 'header', None), 'stamp', None)
+    return 0 if stamp is None else int(stamp.sec * 10**9 + stamp.nanosec)
 
 
 @dataclass(frozen=True)
@@ -114,7 +136,7 @@ def _headers_agree(samples: dict[str, Samples], clock: _Receipts | None, notes: 
     if clock is None:
         return True
     for topic, one in samples.items():
-        both = _is_filled(one) & clock.have(one.received)
+        both = filled_stamps(one) & clock.have(one.received)
         if not both.any() or _has_few_stamps(one):
             continue
         late = 1e-9 * float(np.median((one.received - one.stamped)[both]))
@@ -128,7 +150,7 @@ def _headers_agree(samples: dict[str, Samples], clock: _Receipts | None, notes: 
     return True
 
 
-def _is_filled(one: Samples) -> Mask:
+def filled_stamps(one: Samples) -> Mask:
     """Return which messages count by the stamps of their headers; none if they are not filled.
 
     A program in simulated time stamps its messages with 0 until it receives the first ``/clock``.
@@ -145,7 +167,7 @@ def _has_few_stamps(one: Samples) -> bool:
 
     Some drivers fill only the seconds. A message that is published again has equal values.
     """
-    filled = _is_filled(one)
+    filled = filled_stamps(one)
     values = np.column_stack(one.columns)[filled]
     differs = (values[1:] != values[:-1]).any(axis=1)
     stamped, received = (
@@ -157,7 +179,7 @@ def _has_few_stamps(one: Samples) -> bool:
 
 def _header_times(topic: str, one: Samples, notes: list[str]) -> Timed | None:
     """Return the stamps of the headers of a topic, None if they cannot be used."""
-    kept = _is_filled(one)
+    kept = filled_stamps(one)
     if not kept.any():
         return None
     if _has_few_stamps(one):

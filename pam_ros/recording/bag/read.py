@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag.clocks import Samples, timed
+from pam_ros.recording.bag.clocks import Samples, received_times, stamp_of, timed
 from pam_ros.recording.bag.decode import Topic
+from pam_ros.recording.bag.simulated_clock import clock_times, on_simulated_clock
 from pam_ros.recording.bag.source import BagSource, Message, bag_files, open_bag
 from pam_ros.recording.bag.topics import OwnTopics, own_topics
 from pam_ros.recording.bag.values import FieldReader
@@ -21,8 +22,6 @@ from pam_ros.recording.quantities import Target
 from pam_ros.recording.series import GAP_SECONDS, Series
 
 __all__ = ['bag_files', 'read_bag']
-
-_LATEST = 2**63 - 1  # ns: the largest time in ROS; an MCAP file can hold twice as much
 
 _JOINT = re.compile(r'\[[^\]]+\]$')
 SWAPPED = 0.01  # share of the messages of a topic that may be out of order
@@ -57,9 +56,11 @@ def read_bag(
     index or the name of a joint for arrays: ``/joint_states.position[elbow]``. Messages without
     this joint are not used, and the velocity and effort of that topic are those of this joint.
 
-    The stamp of a message is that of its header if it has one, else the time of its receipt. If
-    the two clocks differ, or if *time* is ``received``, all messages get the time of their
-    receipt, see :func:`pam_ros.recording.bag.clocks.timed`. Pressures in FluidPressure are
+    The stamp of a message is that of its header if it has one, else the time of its receipt, in
+    simulated time if the headers are, see
+    :func:`pam_ros.recording.bag.simulated_clock.on_simulated_clock`. If the two clocks differ, or
+    if *time* is ``received``, all messages get the time of their receipt, see
+    :func:`pam_ros.recording.bag.clocks.timed`. Pressures in FluidPressure are
     absolute; 101325 Pa are subtracted to make them gauge pressures.
 
     Raises RecordingError for topics that are missing, ambiguous, or of an unknown type.
@@ -69,6 +70,8 @@ def read_bag(
     fields = _fields(path, source, mapping, namespace, ours)
     samples = _read(path, source, fields)
     notes = list(source.notes)
+    if time == 'header':
+        samples = on_simulated_clock(samples, clock_times(source), notes)
     commands = {f.topic for f in fields if f.meaning.target.quantity == 'pressure_command'}
     times, origin = timed(path.name, samples, commands, time, notes)
     series: dict[str, Series] = {}
@@ -178,13 +181,7 @@ def _samples(
     path: Path, source: BagSource, fields: list[_Field], messages: list[Message]
 ) -> Samples:
     """Return the *fields* of the *messages* of one topic."""
-    last = max(message.stamp for message in messages)
-    if last > _LATEST:
-        raise RecordingError(
-            f'{path.name}: {fields[0].topic} has a message received at {last} ns: give stamps of '
-            f'at most {_LATEST} ns'
-        )
-    received = np.array([message.stamp for message in messages], dtype=np.int64)
+    received = received_times(path.name, messages)
     topic: Topic = source.topics[fields[0].topic]
     readers = [FieldReader(path.name, field.topic, field.path) for field in fields]
     stamped = np.zeros_like(received)
@@ -196,9 +193,7 @@ def _samples(
         except RecordingError as error:
             where = f'{path.name}: {fields[0].topic}, message {k + 1} of {len(messages)}'
             raise RecordingError(f'{where}: {error}') from error
-        stamp = getattr(getattr(content, 'header', None), 'stamp', None)
-        if stamp is not None:
-            stamped[k] = stamp.sec * 10**9 + stamp.nanosec
+        stamped[k] = stamp_of(content)
         for column, is_of, reader in zip(columns, present, readers, strict=True):
             found = reader.read(content)
             is_of[k] = found is not None
