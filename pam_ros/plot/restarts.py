@@ -12,7 +12,7 @@ from pam_ros.recording.bag.clocks import LATENCY
 
 Times = NDArray[np.int64]
 SECOND = 10**9
-BACK = 1.0  # s; time that goes back by more has started again, else messages are late
+BACK = 0.25  # s; time that goes back by more has started again, else messages are late
 PAUSE = 1.0  # s on the axis of time between two parts
 
 
@@ -26,9 +26,9 @@ class TopicTimes(NamedTuple):
 def one_after_another(topics: Mapping[str, TopicTimes]) -> tuple[dict[str, Times], str]:
     """Return the times of each topic with all parts one after another, and a note.
 
-    A part ends where the time of a topic goes back by more than 1 s. It ends for all topics at the
-    same receipt; those that have no message near it show nothing of it themselves. The next part
-    begins 1 s after the end of the one before. The note is '' if time does not go back.
+    A part ends where the time of a topic goes back by more than 0.25 s. It ends for all topics at
+    the same receipt; those that have no message near it show nothing of it themselves. The next
+    part begins 1 s after the end of the one before. The note is '' if time does not go back.
     """
     falls = {
         topic: np.flatnonzero(np.diff(one.time) < -BACK * SECOND) + 1

@@ -4,23 +4,31 @@
 
 import argparse
 import sys
-from functools import partial
+from collections.abc import Mapping
 from threading import Lock
-from time import monotonic_ns
+from time import monotonic_ns, time_ns
 from typing import Any
 
+from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64, Float64MultiArray
 
 from pam_ros.errors import PamError, shown
 from pam_ros.health.absence import Absence
+from pam_ros.health.health import Level
+from pam_ros.nodes.common.rclpy_internals import messages_of
 from pam_ros.nodes.common.spin import BAD_INPUT, TickingNode
+from pam_ros.nodes.common.taken import Taken, never
 from pam_ros.plot.history import History
+from pam_ros.plot.message_times import Arrived, MessageTimes
 from pam_ros.plot.options import Options, add_arguments, checked
 from pam_ros.plot.panels import panels
 from pam_ros.plot.server import PageServer, content
 from pam_ros.plot.topics import TOPICS, muscles_of, numbers
+from pam_ros.recording.bag.clocks import stamp_of
 from pam_ros.recording.bag.topics import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
@@ -31,10 +39,9 @@ KINDS = {
     FLUID_PRESSURE: FluidPressure,
     JOINT_STATE: JointState,
 }
-LOOK = 5.0  # Hz, of the checks for missing messages
+LOOK = 20.0  # Hz, at which messages are taken and missing ones are noticed
 PATIENCE = 3.0  # s without a message after which the user is informed
-KEPT = 100  # messages of a topic while this program is busy: lost ones are not drawn
-BACK = 1.0  # s; if time goes back by more, it has started again; else messages are late
+KEPT = 200  # messages of a topic until they are taken: lost ones are not drawn
 
 
 class PamPlot(TickingNode):
@@ -55,11 +62,23 @@ class PamPlot(TickingNode):
         self._begun = self._received = monotonic_ns()
         self._has_drawn = False
         self._absence = Absence(self.get_logger(), 'receives messages', patience=PATIENCE)
+        self._times = MessageTimes(is_simulated=self._is_simulated)
+        self._clocks = Absence(
+            self.get_logger(), 'messages have the time of their stamps', PATIENCE, Level.WARN
+        )
         self._server = PageServer(self._look, options.port) if options.png is None else None
         # Best effort is compatible with every publisher, and none has to wait for this program.
         quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
-        for topic, use in TOPICS.items():
-            self.create_subscription(KINDS[use.kind], topic, partial(self._take, topic), quality)
+        group = Taken()
+        self._subscribed: dict[str, Subscription] = {
+            topic: self.create_subscription(
+                KINDS[use.kind], topic, never, quality, callback_group=group
+            )
+            for topic, use in TOPICS.items()
+        }
+        self._clock_subscribed = self.create_subscription(
+            Clock, '/clock', never, quality, callback_group=group
+        )
         self.ticker = Ticker(LOOK)
 
     @classmethod
@@ -82,33 +101,58 @@ class PamPlot(TickingNode):
 
     # What is received ----------------------------------------------------------------------
 
-    def _take(self, topic: str, message: Any) -> None:
-        """Keep the numbers of a message, at the time of its receipt."""
+    def make_executor(self) -> Executor:
+        """Return an executor that obeys callback groups: messages are taken with their times."""
+        return SingleThreadedExecutor()
+
+    def _take(self) -> None:
+        """Take the messages that have arrived, and keep their numbers at their times."""
+        for clock, info in messages_of(self._clock_subscribed):
+            if not self.refuses_time(clock):
+                self._times.tell(
+                    info['source_timestamp'], clock.clock.sec * SECOND + clock.clock.nanosec
+                )
+        taken = [
+            (Arrived(topic, stamp_of(message), *_sent_and_received(info)), message)
+            for topic, subscription in self._subscribed.items()
+            for message, info in messages_of(subscription)
+        ]
+        if not taken:
+            return
         self._received = monotonic_ns()
-        now = self.get_clock().now().nanoseconds
-        if now == 0:
-            return  # simulated time that is not known yet
-        with self._lock:
-            if self._origin is None or now < self._latest - BACK * SECOND:
+        taken.sort(key=lambda one: one[0].sent)
+        placed = self._times.of([one for one, _ in taken])
+        if placed.begins_again:
+            with self._lock:
                 self._history.clear()
-                self._origin = self._latest = now
-            self._latest = max(self._latest, now)
-            t = (now - self._origin) / SECOND
+                self._origin = None
+        for (one, message), time in zip(taken, placed.times, strict=True):
+            if time is not None:
+                self._keep(one.topic, message, time)
+
+    def _keep(self, topic: str, message: Any, time: int) -> None:
+        """Keep the numbers of a message of a *time* in ns."""
+        with self._lock:
+            if self._origin is None:
+                self._origin = self._latest = time
+            self._latest = max(self._latest, time)
+            t = (time - self._origin) / SECOND
         self._history.name_muscles(muscles_of(topic, message))
         for key, value in numbers(topic, message):
             self._history.add(key, t, value)
 
     def tick(self) -> None:
-        """Check for missing messages; end if a PNG is complete or nothing was received in time."""
+        """Take messages; end if a PNG is complete, or if nothing was received in time."""
+        self._take()
         now = monotonic_ns()
         has_time = not self._is_simulated or self.get_clock().now().nanoseconds > 0
         is_missing = self._received == self._begun or now - self._received > PATIENCE * SECOND
         missing = self._missing() if is_missing or not has_time else ''
         self._absence.look(missing, now / SECOND)
+        self._clocks.look(self._times.note, now / SECOND, lasting=PATIENCE)
         with self._lock:
-            self._note = (
-                missing if now - self._received > PATIENCE * SECOND or not has_time else ''
-            )
+            is_late = now - self._received > PATIENCE * SECOND
+            self._note = missing if is_late or not has_time else self._times.note
             origin = self._origin
         options = self._options
         if options.png is None:
@@ -148,7 +192,9 @@ class PamPlot(TickingNode):
         with self._lock:
             if self._origin is None:
                 return 0.0
-            now = max(self.get_clock().now().nanoseconds, self._latest)
+            now = self._latest
+            if not self._times.has_own_clock:
+                now = max(self.get_clock().now().nanoseconds, now)
             return (now - self._origin) / SECOND
 
     def _look(self) -> dict[str, Any]:
@@ -193,3 +239,9 @@ class PamPlot(TickingNode):
                 self._fail(f'{self._options.png} is not written: nothing was received yet')
             else:
                 self._draw(0.0, max(self._end(), 1e-3))
+
+
+def _sent_and_received(info: Mapping[str, Any]) -> tuple[int, int]:
+    """Return the system times in ns at which the middleware sent and received a message."""
+    received = int(info['received_timestamp'] or time_ns())
+    return int(info['source_timestamp'] or received), received

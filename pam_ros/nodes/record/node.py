@@ -20,10 +20,10 @@ from rosgraph_msgs.msg import Clock
 from pam_ros.errors import RecordingError, shown
 from pam_ros.health.absence import Absence
 from pam_ros.nodes.common.spin import BAD_INPUT, TickingNode
+from pam_ros.nodes.common.taken import Taken, never
 from pam_ros.nodes.record.intake import TAKE, MessageIntake
 from pam_ros.nodes.record.message_text import message_text
 from pam_ros.nodes.record.qos import matching, metadata
-from pam_ros.nodes.record.taking import Taken, never
 from pam_ros.recording.bag.metadata import BagTopic
 from pam_ros.recording.bag.writer import BagWriter
 from pam_ros.timing.pace import SECOND

@@ -1,32 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Subscriptions whose messages are taken from the middleware, without callbacks."""
+"""A topic that is recorded: what is known of its times, and what waits to be written."""
 
 from collections import deque
-from typing import Any
 
-from rclpy.callback_groups import CallbackGroup
 from rclpy.subscription import Subscription
 
 from pam_ros.recording.sending_time import SendingTime
-
-
-class Taken(CallbackGroup):
-    """Subscriptions that no executor serves: their messages are taken by the recorder's thread.
-
-    The middleware keeps them until then, with the time at which each was received.
-    """
-
-    def can_execute(self, entity: Any) -> bool:
-        """Leave it to the recorder."""
-        return False
-
-    def beginning_execution(self, entity: Any) -> bool:
-        """Leave it to the recorder."""
-        return False
-
-    def ending_execution(self, entity: Any) -> None:
-        """Nothing has begun."""
 
 
 class RecordedTopic:
@@ -68,7 +48,3 @@ class RecordedTopic:
         if self.is_sole and self.last_number is not None and number > self.last_number:
             self.lost += number - self.last_number - 1
         self.last_number = number
-
-
-def never(message: bytes) -> None:
-    """Do nothing: a subscription needs a callback, but this one is never called."""

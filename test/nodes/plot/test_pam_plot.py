@@ -6,13 +6,14 @@ import http.client
 import json
 
 import matplotlib.image
+import numpy as np
 import pytest
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
 from support.ends import check_refusals
-from support.harness import Program
+from support.harness import Program, lose_nothing
 
 pytestmark = [pytest.mark.usefixtures('domain'), pytest.mark.at_any_pace]
 
@@ -155,6 +156,85 @@ def test_time_is_that_of_clock_where_it_is_simulated(peer):
         found = peer.until(lambda: shows(5, 5), 'the one after a reset')
     (line,) = found['panels'][0]['lines']
     assert set(line['t']) == {0.0}
+
+
+PERIOD = 0.02  # s of simulated time
+LOCKSTEP = {
+    'time_mode': 'lockstep',
+    'publish_rate': 1.0 / PERIOD,
+    'clock_rate': 1.0 / PERIOD,
+    **lose_nothing(),
+}
+
+
+def stamp_of(state):
+    return state.header.stamp.sec + 1e-9 * state.header.stamp.nanosec
+
+
+def answer_states(peer, states, count):
+    """Answer *count* states of a simulator in lockstep, each with another pressure, at leisure."""
+    after = 0.0
+    for k in range(count):
+
+        def is_next(after=after):
+            return states[-1] if states and stamp_of(states[-1]) > after else None
+
+        after = stamp_of(peer.until(is_next, 'the next state'))
+        peer.work(0.01)  # on the wall; the simulator waits
+        peer.publish(Float64(data=1e5 + 1e3 * k), 'pressure_command')
+    peer.until(lambda: stamp_of(states[-1]) > after, 'the last state')
+
+
+def test_a_rig_in_lockstep_is_drawn_in_its_time_and_commands_at_their_states(peer):
+    count = 40
+    with Program('pam_plot') as program:
+        address = address_of(peer, program)
+        for _ in range(2):  # a simulation that starts again begins a new plot
+            states = peer.collect(JointState, 'joint_states')
+            with Program('pam_sim', parameters=LOCKSTEP):
+                peer.until(
+                    lambda: peer.node.count_subscribers('pressure_command') > 1, 'the programs'
+                )
+                answer_states(peer, states, count)
+
+                def is_complete():
+                    found = data_of(address)
+                    return found if abs(found['now'] - count * PERIOD) < 1e-6 else None
+
+                found = peer.until(is_complete, 'the last state on the page')
+            lines = {line['name']: line for one in found['panels'] for line in one['lines']}
+            assert found['note'] == ''
+            assert lines['pam']['t'] == pytest.approx(np.arange(count + 1) * PERIOD)
+            # A command has no stamp: it acts from the state on that it answers.
+            command, pressure = lines['pressure_command'], lines['pressure']
+            assert command['t'] == pytest.approx(np.arange(count) * PERIOD)
+            assert command['value'] == pytest.approx(1e5 + 1e3 * np.arange(count))
+            assert pressure['value'][1:] == pytest.approx(command['value'])
+
+
+def test_a_node_on_the_wall_next_to_a_simulated_one_is_one_sentence(peer):
+    with Program('pam_plot') as program:
+        address = address_of(peer, program)
+        states = peer.node.create_publisher(JointState, 'joint_states', 10)
+        terms = peer.node.create_publisher(JointState, 'pam_control/state', 10)
+
+        def note():
+            state = JointState(name=['knee'], position=[0.5])
+            state.header.stamp.sec = 5
+            states.publish(state)
+            term = JointState(name=['reference'], position=[0.6])
+            term.header.stamp = peer.node.get_clock().now().to_msg()
+            terms.publish(term)
+            found = data_of(address)
+            return found if 'simulated time' in found['note'] and found['now'] > 0.5 else None
+
+        found = peer.until(note, 'the note on the page')
+        peer.until(lambda: note() and found['note'] in program.output, 'the line in the log')
+    # All are on the clock of this machine, side by side.
+    ends = [line['t'][-1] for one in found['panels'] for line in one['lines']]
+    assert len(ends) == 2
+    assert all(0.0 <= found['now'] - end <= 60.0 for end in ends)
+    assert found['end'] - found['start'] == pytest.approx(20.0)
 
 
 def test_bad_arguments_end_it_with_a_sentence(tmp_path):
