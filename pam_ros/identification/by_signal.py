@@ -10,8 +10,10 @@ fitted together to the motion under the commands alone, which is what is reporte
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pam_ros.identification.data.by_signal import behind_chambers, of_chambers
 from pam_ros.identification.data.parts import like, parts_in_turn
@@ -41,6 +43,10 @@ MOTION, TOGETHER = 0.3, 0.6
 # Effects that an error of the pressure sensor imitates, its offset or the age of its samples: the
 # motion must show them as well.
 OF_SENSOR = ('pressure_offset', 'dead_time')
+# Share of the highest command by which a copy of the commands may differ from them: offsets of the
+# pressure of the air that were added and subtracted leave errors of rounding.
+EQUAL = 1e-9
+SIDES: tuple[Literal['left', 'right'], ...] = ('left', 'right')
 # Error of the best model in standard deviations of a pressure, above which it is another signal.
 STRANGE = 1.0 / 3.0
 
@@ -74,7 +80,7 @@ def find_by_signal(
 
     chambers = [of_chambers(one) for one in recordings]
     of_path = replace(setting, parts=parts_in_turn(chambers, *shares))
-    path, reason = None, idle(recordings)
+    path, reason = None, idle(recordings) or copied(recordings)
     if not reason and (doubt := likely_mistake(of_path, {})):
         reason = doubt.reason
     if not reason:
@@ -108,6 +114,35 @@ def idle(recordings: Sequence[Recording]) -> str:
     names = [recordings[0].muscles[k] for k in still] if recordings[0].muscles else []
     which = f'those of {listed(names)}' if names else 'they'
     return f'{which} are constant while the commands change: was the sensor read?'
+
+
+def copied(recordings: Sequence[Recording]) -> str:
+    """Return a clause that names the pressures which equal the commands, '' if none do.
+
+    A program that stores its set-point twice gives such pressures. As a measurement they would
+    exclude each effect between the commands and the chambers.
+    """
+    equal = np.logical_and.reduce([_are_copies(one) for one in recordings])
+    if not equal.any():
+        return ''
+    names = [recordings[0].muscles[k] for k in np.flatnonzero(equal) if recordings[0].muscles]
+    which = f'those of {listed(names)}' if names else 'they'
+    return f'{which} equal the commands in all samples, as a copy of them does, and no sensor'
+
+
+def _are_copies(recording: Recording) -> NDArray[np.bool_]:
+    """Return for each muscle whether its pressure equals its command (muscles,)."""
+    assert recording.command is not None
+    assert recording.command_t is not None
+    assert recording.pressure is not None
+    command = recording.command.reshape(recording.command.shape[0], -1)
+    pressure = recording.pressure.reshape(recording.pressure.shape[0], -1)
+    found = np.zeros(command.shape[1], dtype=bool)
+    for side in SIDES:  # a copy may be taken before or after a command of the same stamp acts
+        at = np.searchsorted(recording.command_t, recording.t, side=side) - 1
+        error = np.abs(pressure - command[np.maximum(at, 0)]).max(axis=0)
+        found |= error <= EQUAL * np.abs(command).max(axis=0)
+    return found
 
 
 def contradiction(path: Search) -> str:
