@@ -18,6 +18,7 @@ from pam_ros.devices.simulated_sensors import SimulatedSensors as SimulatedSenso
 from pam_ros.effects import *
 from pam_ros.effects import EFFECTS as EFFECTS
 from pam_ros.errors import PamError as PamError
+from pam_ros.identification.free_run import simulate_recording as simulate_recording
 from pam_ros.identification.identification import Identification as Identification
 from pam_ros.identification.identify import identify as identify
 from pam_ros.muscle.braid import Braid as Braid

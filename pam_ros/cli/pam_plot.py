@@ -13,18 +13,21 @@ Subscribes, best effort
 
 Without an option it prints the address of a page on this machine (127.0.0.1) that shows the last
 20 s, until Ctrl-C. With ``--png FILE`` it draws ``--seconds`` from the first message on and ends.
-``--bag PATH`` draws a recording, without ROS. Exit code 0 at the end and after Ctrl-C, 2 for
+``--bag PATH`` draws a recording, without ROS, and ``--model`` the free runs of models over it,
+with their residuals and errors. Exit code 0 at the end and after Ctrl-C, 2 for
 invalid input, and if ``--png`` received nothing.
 """
 
 import argparse
 import sys
 from threading import Event
+from typing import NamedTuple
 
 from pam_ros.cli.help_text import help_text
 from pam_ros.cli.start import start_node
 from pam_ros.errors import PamError, shown
 from pam_ros.plot.options import Options, add_arguments, checked
+from pam_ros.plot.panels import Panel
 from pam_ros.processes.ends import ignore_ends
 from pam_ros.processes.interrupts import raise_on_signal
 from pam_ros.processes.outputs import guard_outputs
@@ -81,28 +84,20 @@ def _draw_recording(arguments: list[str]) -> None:
 
 
 def _run(options: Options) -> None:
-    from pam_ros.plot.panels import panels
-    from pam_ros.plot.recorded import read
-    from pam_ros.recording.mapping import read_mapping
-
-    assert options.bag is not None
-    mapping = read_mapping(options.rules)
-    of_table = (options.columns, options.sheet, options.variable)
-    found = read(options.bag, options.namespace, mapping, *of_table)
-    for note in found.notes:
-        print(shown(f'{options.bag.name}: {note}'), file=sys.stderr)
-    drawn = panels(found.curves, options.unit or found.unit, found.end, COLUMNS)
+    made = _compared(options) if options.models else _recorded(options)
+    for note in made.notes:
+        print(shown(f'{made.name}: {note}'), file=sys.stderr)
     if options.png is not None:
         from pam_ros.plot.figure import figure, save
 
-        save(figure(drawn, found.start, found.end), options.png)
+        save(figure(made.panels, made.start, made.end), options.png)
         print(shown(f'wrote {options.png}'))
         return
     from pam_ros.plot.server import PageServer, content
 
-    note = shown('; '.join(found.notes))
-    made = content(drawn, found.start, found.end, found.end, note=note, is_live=False)
-    server = PageServer(lambda: made, options.port)
+    note = shown('; '.join(made.notes))
+    data = content(made.panels, made.start, made.end, made.end, note=note, is_live=False)
+    server = PageServer(lambda: data, options.port)
     try:
         server.start()
         print(f'open {server.address} in a browser; Ctrl-C ends it', flush=True)
@@ -111,6 +106,46 @@ def _run(options: Options) -> None:
         pass
     finally:
         server.close()
+
+
+class _Drawing(NamedTuple):
+    """The plots of a recording, the ends of the axis of time in s, and notes."""
+
+    name: str
+    panels: list[Panel]
+    start: float
+    end: float
+    notes: tuple[str, ...]
+
+
+def _recorded(options: Options) -> _Drawing:
+    """Return all signals of a recording."""
+    from pam_ros.plot.panels import panels
+    from pam_ros.plot.recorded import read
+    from pam_ros.recording.mapping import read_mapping
+
+    assert options.bag is not None
+    mapping = read_mapping(options.rules)
+    of_table = (options.columns, options.sheet, options.variable)
+    found = read(options.bag, options.namespace, mapping, *of_table)
+    drawn = panels(found.curves, options.unit or found.unit, found.end, COLUMNS)
+    return _Drawing(options.bag.name, drawn, found.start, found.end, found.notes)
+
+
+def _compared(options: Options) -> _Drawing:
+    """Return the free runs of models over a recording, and print their errors."""
+    from pam_ros.plot.models import read_comparison
+    from pam_ros.recording.mapping import read_mapping
+
+    assert options.bag is not None
+    mapping = read_mapping(options.rules)
+    of_table = (options.columns, options.sheet, options.variable)
+    found, notes = read_comparison(
+        options.bag, options.models, options.namespace, mapping, *of_table
+    )
+    for line in found.table():
+        print(shown(line), flush=True)
+    return _Drawing(options.bag.name, found.panels(COLUMNS), 0.0, found.end, notes)
 
 
 if __name__ == '__main__':

@@ -2,31 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """The whole result of an identification, as a Python program and a notebook use it."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from html import escape
 from typing import Any
 
 import numpy as np
 
 from pam_ros.arguments import instance
-from pam_ros.identification.data.checked import checked
-from pam_ros.identification.data.segment import (
-    FreeSegment,
-    HeldSegment,
-    require_joint,
-    segments_of,
-)
-from pam_ros.identification.fit.of_rig import joint_with
+from pam_ros.identification.free_run import from_start, simulate_recording
 from pam_ros.identification.result import Conclusion
 from pam_ros.identification.summary import last_line, summary
 from pam_ros.identification.wording import scale_for
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.joint import Joint
-from pam_ros.rig.run import Trajectory, simulate, simulate_held, simulate_pressure
-from pam_ros.rig.step_limit import longest_step
-
-STEP = 1e-3  # s, longest step of a simulation; a light load needs a shorter one
+from pam_ros.rig.run import Trajectory
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -83,26 +71,9 @@ class Identification(Conclusion):
         used.
         """
         instance('recording', recording, Recording, 'a Recording')
-        joint = self.joint
-        require_joint([recording], joint)
-        usable = checked(recording, joint)
-        joint = joint_with(joint, recording.numbers)
-        if not any(_are_same(recording, one) for one in self.recordings):
-            joint = _from_start(joint)
-        if usable.kind == 'pressure':
-            return _pressures(joint, usable)
-        step = min(STEP, *(longest_step(stage) for _, stage in joint.stages))
-        runs = []
-        for part in segments_of([usable]):
-            if isinstance(part, HeldSegment):
-                held = part.pressure, part.position, part.velocity
-                runs.append(simulate_held(_from_start(joint), part.t, *held))
-            else:
-                assert isinstance(part, FreeSegment)
-                inputs = part.t, part.drive, part.drive_t
-                start = {'position': part.y0, 'velocity': part.v0, 'step': step}
-                runs.append(simulate(joint, *inputs, **start, hidden=None))
-        return _joined(runs)
+        is_fitted = any(_are_same(recording, one) for one in self.recordings)
+        joint = self.joint if is_fitted else from_start(self.joint)
+        return simulate_recording(joint, recording)
 
     def plot(self, axes: Any = None) -> Any:
         """Draw the measurement, the nominal and the identified model, and what they leave.
@@ -133,31 +104,6 @@ class Identification(Conclusion):
         lower.set_ylabel(f'residual [{scale.unit}]')
         lower.set_xlabel('time [s]')
         return axes
-
-
-def _joined(runs: Sequence[Trajectory]) -> Trajectory:
-    """Return runs one after the other as one."""
-    return Trajectory(
-        *(np.concatenate([getattr(run, one.name) for run in runs]) for one in fields(Trajectory))
-    )
-
-
-def _pressures(joint: Joint, recording: Recording) -> Trajectory:
-    """Return the pressures in the chambers of *joint*, each stretch after a rest at its start."""
-    runs = []
-    for part in recording.segments():
-        drive_t, drive = part.drive(STEP)
-        pressure = simulate_pressure(joint, part.t, drive, drive_t, step=STEP)
-        nothing = np.full(part.t.size, np.nan)
-        runs.append(
-            Trajectory(part.t, nothing, nothing, pressure, np.full(pressure.shape, np.nan))
-        )
-    return _joined(runs)
-
-
-def _from_start(joint: Joint) -> Joint:
-    """Return *joint* with all effects acting from the start."""
-    return joint.map_effects(lambda effects: [replace(one, onset=0.0) for one in effects])
 
 
 def _are_same(recording: Recording, other: Recording) -> bool:

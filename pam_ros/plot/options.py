@@ -3,17 +3,34 @@
 """The options on the command line of ``pam_plot``."""
 
 import argparse
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from math import isfinite
 from pathlib import Path
 
-from pam_ros.errors import PamError
+from pam_ros.errors import PamError, shown
+from pam_ros.plot.colours import GREY
 from pam_ros.plot.panels import UNITS
 from pam_ros.recording.mapping import column_names
 
 PAGE_SECONDS, PNG_SECONDS, WAIT = 20.0, 10.0, 10.0
 SHORTEST_AXIS, LONGEST_AXIS = 0.5, 3600.0  # s
 PORTS = 65535
+MOST_MODELS = GREY  # the colours before the one of the measurement
+
+
+@dataclass(frozen=True)
+class ModelOption:
+    """A model to compare: a parameter file or a preset, and its values of ``--set``."""
+
+    params: str
+    values: tuple[str, ...] = ()
+    own: tuple[str, ...] = ()  # those of this model alone
+
+    @property
+    def name(self) -> str:
+        """The name for legends and tables; values that only this model has belong to it."""
+        return ', '.join([self.params, *self.own])
 
 
 @dataclass(frozen=True)
@@ -35,6 +52,7 @@ class Options:
     columns: tuple[str, ...]
     sheet: str | None
     variable: str | None
+    models: tuple[ModelOption, ...] = ()
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -71,6 +89,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar='PATH',
         help='draw a recording, a rosbag2 or a CSV file, instead of a rig that is running',
     )
+    parser.add_argument(
+        '--model',
+        action=_InOrder,
+        metavar='MODEL',
+        help='with --bag: draw the free run of this model with its residuals, and print its '
+        'error; a parameter file such as identified.yaml, or a muscle of this package; may be '
+        'repeated',
+    )
+    parser.add_argument(
+        '--set',
+        action=_InOrder,
+        metavar='NAME=VALUE',
+        help='override a parameter of the --model before it, or of all models if it is before the '
+        'first one; may be repeated',
+    )
     parser.add_argument('--namespace', help='namespace of the rig, if a bag contains several')
     parser.add_argument(
         '--column',
@@ -88,6 +121,45 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '--variable', metavar='NAME', help='struct or matrix of a MATLAB file that has several'
     )
+
+
+class _InOrder(argparse.Action):
+    """Collects ``--model`` and ``--set`` in the order in which they were given."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: str | Sequence[object] | None,
+        option_string: str | None = None,
+    ) -> None:
+        """Add the option and its value."""
+        before = getattr(namespace, 'of_models', ())
+        namespace.of_models = (*before, (self.dest, str(values)))
+
+
+def _models(given: argparse.Namespace) -> tuple[ModelOption, ...]:
+    """Return the models of a command line, with their values."""
+    found: list[ModelOption] = []
+    common: list[str] = []
+    for option, value in getattr(given, 'of_models', ()):
+        if option == 'model':
+            found.append(ModelOption(value, tuple(common)))
+        elif found:
+            last = found[-1]
+            found[-1] = replace(last, values=(*last.values, value), own=(*last.own, value))
+        else:
+            common.append(value)
+    if common and not found:
+        raise PamError(f'--set {shown(common[0])} is for --model, and no model is given')
+    if len(found) > MOST_MODELS:
+        raise PamError(f'{len(found)} times --model is not allowed: give at most {MOST_MODELS}')
+    if found and given.bag is None:
+        raise PamError('--model is for --bag: a model is compared with a recording')
+    for one in found:
+        if [other.name for other in found].count(one.name) > 1:
+            raise PamError(f'--model {shown(one.name)} is given twice: give different models')
+    return tuple(found)
 
 
 def checked(given: argparse.Namespace) -> Options:
@@ -110,6 +182,7 @@ def checked(given: argparse.Namespace) -> Options:
         () if given.columns is None else column_names(given.columns),
         given.sheet,
         given.variable,
+        _models(given),
     )
     for name, value in (('--seconds', options.seconds), ('--wait', options.wait)):
         if not (isfinite(value) and SHORTEST_AXIS <= value <= LONGEST_AXIS):

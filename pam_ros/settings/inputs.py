@@ -14,9 +14,9 @@ from pam_ros.identification.identify import identify
 from pam_ros.recording.inputs import refuse_copies, refuse_idle
 from pam_ros.recording.mapping import column_names, read_mapping
 from pam_ros.recording.recording import Recording
-from pam_ros.settings.files import presets
 from pam_ros.settings.nominal import (
     NominalJoint,
+    example_mass,
     nominal_joint,
     package_muscles,
     uncertain_values,
@@ -44,18 +44,11 @@ class Inputs:
     @property
     def assumed(self) -> str:
         """A sentence on the mass if it is that of a muscle of this package; else empty."""
-        mass = getattr(self.nominal.joint.load, 'mass', None)
         names = {text.partition('=')[0].strip() for text in self.given}
-        numbers = {name for one in (*self.recordings, *self.test) for name in one.numbers}
-        moves = any(one.kind == 'free' for one in (*self.recordings, *self.test))
-        if mass is None or 'mass' in names | numbers or not moves:
-            return ''
-        if self.params not in presets('muscles'):
-            return ''
-        return (
-            f'the load is {mass:g} kg, the example in the file of the muscle {self.params}: '
-            'give that of your rig with --set mass=...'
-        )
+        recordings = (*self.recordings, *self.test)
+        names |= {name for one in recordings for name in one.numbers}
+        is_moved = any(one.kind == 'free' for one in recordings)
+        return example_mass(self.params, self.nominal.joint, names) if is_moved else ''
 
     def identify(
         self,

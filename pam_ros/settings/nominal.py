@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The joint that a parameter file describes, and the parameters that describe a joint."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -126,6 +126,20 @@ def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoi
     scene, values = read_scene(name, raw, typed)
     joint = only_joint(name, scene, values)
     return NominalJoint(joint, scene.kind, tuple(scene.muscles), scene.joints[0])
+
+
+def example_mass(name: str, joint: Joint, given: Collection[str]) -> str:
+    """Return a sentence if the mass of *joint* is the example in the file of a muscle, else ''.
+
+    *name* is the file or preset that was read, and *given* are the parameters that were replaced.
+    """
+    mass = getattr(joint.load, 'mass', None)
+    if mass is None or 'mass' in given or name not in presets('muscles'):
+        return ''
+    return (
+        f'the load is {mass:g} kg, the example in the file of the muscle {name}: give that of '
+        'your rig with --set mass=...'
+    )
 
 
 def package_muscles() -> dict[str, Muscle]:
