@@ -58,6 +58,7 @@ setup(
         'PyYAML',
         'matplotlib',
         'jinja2',
+        'bokeh>=3.4',
         'mcap>=1.5',
         'rosbags',
         'tqdm',

@@ -3,8 +3,8 @@
 """``pam_plot``: draw the signals of a rig, as a page for a browser or as a PNG file.
 
 Position and reference, commanded and measured pressure, force, stiffness and damping, one below
-the other on a common time axis. In SI units, with the names of the joints and muscles; pressures
-are gauge pressures.
+the other on a common time axis. With the names of the joints and muscles; pressures are gauge
+pressures in kPa, and the page shows SI units as well.
 
 Subscribes, best effort
     ``joint_states``, ``pressure_command``, ``pressure``, ``force``, ``stiffness``, ``damping``,
@@ -20,6 +20,7 @@ invalid input, and if ``--png`` received nothing.
 
 import argparse
 import sys
+from functools import partial
 from threading import Event
 from typing import NamedTuple
 
@@ -34,7 +35,6 @@ from pam_ros.processes.outputs import guard_outputs
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
 BAD_INPUT, INTERRUPTED = 2, 130
-COLUMNS = 1000  # of time to which a recording is thinned: about as many as a plot has pixels
 
 
 def main() -> None:
@@ -95,9 +95,16 @@ def _run(options: Options) -> None:
         return
     from pam_ros.plot.server import PageServer, content
 
-    note = shown('; '.join(made.notes))
-    data = content(made.panels, made.start, made.end, made.end, note=note, is_live=False)
-    server = PageServer(lambda: data, options.port)
+    look = partial(
+        content,
+        made.panels,
+        made.start,
+        made.end,
+        made.end,
+        note=shown('; '.join(made.notes)),
+        is_live=False,
+    )
+    server = PageServer(lambda window: look(window=window), options.port)
     try:
         server.start()
         print(f'open {server.address} in a browser; Ctrl-C ends it', flush=True)
@@ -122,13 +129,14 @@ def _recorded(options: Options) -> _Drawing:
     """Return all signals of a recording."""
     from pam_ros.plot.panels import panels
     from pam_ros.plot.recorded import read
+    from pam_ros.plot.value_axis import judged
     from pam_ros.recording.mapping import read_mapping
 
     assert options.bag is not None
     mapping = read_mapping(options.rules)
     of_table = (options.columns, options.sheet, options.variable)
     found = read(options.bag, options.namespace, mapping, *of_table)
-    drawn = panels(found.curves, options.unit or found.unit, found.end, COLUMNS)
+    drawn = panels(judged(found.curves), options.unit or found.unit, found.end)
     return _Drawing(options.bag.name, drawn, found.start, found.end, found.notes)
 
 
@@ -145,7 +153,7 @@ def _compared(options: Options) -> _Drawing:
     )
     for line in found.table():
         print(shown(line), flush=True)
-    return _Drawing(options.bag.name, found.panels(COLUMNS), 0.0, found.end, notes)
+    return _Drawing(options.bag.name, found.panels(), 0.0, found.end, notes)
 
 
 if __name__ == '__main__':

@@ -14,7 +14,8 @@ from pam_ros.identification.data.segment import require_joint
 from pam_ros.identification.free_run import simulate_recording
 from pam_ros.identification.wording import ABSENT, Scale, interval, number, scale_for
 from pam_ros.plot.colours import GREY
-from pam_ros.plot.panels import Panel, PanelLine, thinned
+from pam_ros.plot.column_names import word
+from pam_ros.plot.panels import Panel, PanelLine, with_gaps
 from pam_ros.recording.recording import PREDICTED, Recording
 from pam_ros.report.diagnostics import Size, size_of
 from pam_ros.rig.joint import Joint
@@ -68,56 +69,57 @@ class Comparison:
         """The last stamp in s."""
         return float(self.recording.t[-1])
 
-    def panels(self, columns: int | None = None) -> list[Panel]:
+    def panels(self) -> list[Panel]:
         """Return the plots: what is predicted, its residuals, and the pressures.
 
-        At most two values in each of *columns* of time are drawn. A measured pressure of a load
-        that moves has the simulated ones beside it.
+        A measured pressure of a load that moves has the simulated ones beside it.
         """
-        made = self._predicted(columns)
+        signals = range(len(self.noises))
+        made = [panel for k in signals for panel in self._predicted(k)]
         if self.quantity != 'pressure':
-            made += self._pressures(columns)
-        return made
+            made += [self._pressures(k) for k in range(len(self.recording.muscles) or 1)]
+        return [panel for panel in made if panel.lines]
 
-    def _predicted(self, columns: int | None) -> list[Panel]:
-        """Return the predicted signals of all muscles, each with its residuals."""
-        recording, made = self.recording, []
-        measured = _columns(_measured(recording))
-        for k, signal in enumerate(measured.T):
-            muscle = f' of {recording.muscles[k]}' if measured.shape[1] > 1 else ''
-            lines = [_line('measured', GREY, recording.t, signal, columns, is_below=True)]
-            left = []
-            for i, run in enumerate(self.runs):
-                t, simulated = run.trajectory.t, run.predicted(self.quantity)[:, k]
-                lines.append(_line(run.name, i, t, simulated, columns))
-                e = signal[run.rows] - simulated
-                left.append(_line(run.name, i, t, e, columns))
-            made.append(Panel(f'{_TITLES[self.quantity]}{muscle}, {self.unit}', lines))
-            made.append(Panel(f'residual (measured − simulated){muscle}, {self.unit}', left))
-        return made
+    def _predicted(self, k: int) -> tuple[Panel, Panel]:
+        """Return the plots of the predicted signal *k*, and of its residuals."""
+        t, signal = self.recording.t, _columns(_measured(self.recording))[:, k]
+        muscle = self._muscle(k) if self.quantity == 'pressure' else ''
+        lines = [_line('measured', GREY, t, signal, _column(muscle, self.quantity), is_below=True)]
+        left = []
+        for i, run in enumerate(self.runs):
+            own_t, simulated = run.trajectory.t, run.predicted(self.quantity)[:, k]
+            lines.append(_line(run.name, i, own_t, simulated))
+            left.append(_line(run.name, i, own_t, signal[run.rows] - simulated))
+        of = f' of {muscle}' if muscle else ''
+        return (
+            Panel(f'{_TITLES[self.quantity]}{of}, {self.unit}', lines, self.quantity),
+            Panel(f'residual (measured − simulated){of}, {self.unit}', left, self.quantity),
+        )
 
-    def _pressures(self, columns: int | None) -> list[Panel]:
-        """Return the commanded, the measured and, if there are both, the simulated pressures."""
-        recording, made = self.recording, []
-        for k in range(len(recording.muscles) or 1):
-            lines = []
-            if recording.command is not None and recording.command_t is not None:
-                t, value = recording.command_t, _columns(recording.command)[:, k]
-                if t[-1] < self.end:
-                    t, value = np.append(t, self.end), np.append(value, value[-1])
-                # They are held, so that a pause between two of them is no gap.
-                lines.append(PanelLine('commanded', GREY, True, True, t, value))
-            if recording.pressure is not None:
-                measured = _columns(recording.pressure)[:, k]
-                lines.append(_line('measured', GREY, recording.t, measured, columns))
-                if lines[0].is_held and recording.kind == 'free':
-                    for i, run in enumerate(self.runs):
-                        own = run.predicted('pressure')[:, k]
-                        lines.append(_line(run.name, i, run.trajectory.t, own, columns))
-            if lines:
-                muscle = f' of {recording.muscles[k]}' if recording.muscles else ''
-                made.append(Panel(f'{_TITLES["pressure"]}{muscle}, Pa', lines))
-        return made
+    def _pressures(self, k: int) -> Panel:
+        """Return the plot of the pressures of muscle *k*: commanded, measured and simulated."""
+        recording, muscle, lines = self.recording, self._muscle(k), []
+        if recording.command is not None and recording.command_t is not None:
+            t, value = recording.command_t, _columns(recording.command)[:, k]
+            if t[-1] < self.end:
+                t, value = np.append(t, self.end), np.append(value, value[-1])
+            # They are held, so that a pause between two of them is no gap.
+            column = _column(muscle, 'pressure_command')
+            lines.append(PanelLine('commanded', GREY, True, True, t, value, column))
+        if recording.pressure is not None:
+            measured = _columns(recording.pressure)[:, k]
+            column = _column(muscle, 'pressure')
+            lines.append(_line('measured', GREY, recording.t, measured, column))
+            if len(lines) > 1 and recording.kind == 'free':
+                for i, run in enumerate(self.runs):
+                    own = run.predicted('pressure')[:, k]
+                    lines.append(_line(run.name, i, run.trajectory.t, own))
+        of = f' of {muscle}' if muscle else ''
+        return Panel(f'{_TITLES["pressure"]}{of}, Pa', lines, 'pressure')
+
+    def _muscle(self, k: int) -> str:
+        """Return the name of muscle *k* of a joint that has several, else ''."""
+        return self.recording.muscles[k] if self.recording.muscles else ''
 
     def table(self) -> list[str]:
         """Return the errors of the models as lines of a text, all in the same unit."""
@@ -201,8 +203,13 @@ def _columns(value: Array) -> Array:
     return value.reshape(value.shape[0], -1)
 
 
+def _column(muscle: str, quantity: str) -> str:
+    """Return the name of a column of a CSV file, without its unit."""
+    return f'{word(muscle)}.{quantity}' if muscle else quantity
+
+
 def _line(
-    name: str, number: int, t: Array, value: Array, columns: int | None, *, is_below: bool = False
+    name: str, number: int, t: Array, value: Array, column: str = '', *, is_below: bool = False
 ) -> PanelLine:
-    drawn_t, drawn = thinned(t, np.where(np.isfinite(value), value, np.nan), columns)
-    return PanelLine(name, number, is_below, False, drawn_t, drawn)
+    drawn_t, drawn = with_gaps(t, np.where(np.isfinite(value), value, np.nan))
+    return PanelLine(name, number, is_below, False, drawn_t, drawn, column)

@@ -3,16 +3,20 @@
 """Plots one below the other on a common axis of time: their titles, lines and names."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.plot.colours import GREY
+from pam_ros.plot.column_names import column_name
 from pam_ros.plot.topics import TOPICS, Key
+from pam_ros.recording.outliers import LONGEST, MOST
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 UNITS = ('m', 'rad')
 _EFFORT = {'m': 'N', 'rad': 'N·m', '': 'N or N·m'}
@@ -21,10 +25,14 @@ GAP_PERIODS, GAP_SECONDS = 10.0, 0.5
 
 
 class Curves(NamedTuple):
-    """Curves by their keys, stamps in s and values in SI, both (n,), and the muscles' names."""
+    """Curves by their keys, stamps in s and values in SI, both (n,), and the muscles' names.
+
+    ``is_outlier`` has the samples of a curve that are outliers (n,), if it was judged.
+    """
 
     samples: Mapping[Key, tuple[Array, Array]]
     muscles: tuple[str, ...] = ()
+    is_outlier: Mapping[Key, Mask] = MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +40,9 @@ class PanelLine:
     """A line of a plot: stamps in s and values in SI, both (n,), with NaN in its gaps.
 
     Lines of the same ``number`` are of the same joint or muscle. A command is constant until the
-    next one (``is_held``); a measured signal is drawn linearly between its samples.
+    next one (``is_held``); a measured signal is drawn linearly between its samples. ``column`` is
+    the name of its column in a CSV file without the unit, and ``outliers`` (k,) are the stamps of
+    samples that jump away from their neighbours and back.
     """
 
     name: str
@@ -41,14 +51,17 @@ class PanelLine:
     is_held: bool
     t: Array
     value: Array
+    column: str = ''
+    outliers: Array = field(default_factory=lambda: np.empty(0))
 
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """A plot: its title with the unit, and its lines; set-points come first."""
+    """A plot: its title with the unit, its lines, and its quantity; set-points come first."""
 
     title: str
     lines: list[PanelLine]
+    quantity: str = ''
 
 
 def titles(unit: str) -> dict[str, str]:
@@ -64,8 +77,8 @@ def titles(unit: str) -> dict[str, str]:
     }
 
 
-def panels(curves: Curves, unit: str, end: float, columns: int | None = None) -> list[Panel]:
-    """Return the plots of *curves*, with at most two values in each of *columns* of time.
+def panels(curves: Curves, unit: str, end: float) -> list[Panel]:
+    """Return the plots of *curves*, with all of their samples.
 
     A position reference is constant until *end* s. The efforts of ``joint_states`` are drawn if no
     force is published.
@@ -79,24 +92,38 @@ def panels(curves: Curves, unit: str, end: float, columns: int | None = None) ->
             continue
         measured = [key.column for key in own if not TOPICS[key.topic].is_set_point]
         own.sort(key=_order)
-        lines = [_line(key, curves, measured, end, columns) for key in own]
-        made.append(Panel(title, lines))
+        lines = [_line(key, curves, measured, end) for key in own]
+        made.append(Panel(title, lines, panel))
     return made
 
 
-def _line(
-    key: Key, curves: Curves, measured: list[str], end: float, columns: int | None
-) -> PanelLine:
+def _line(key: Key, curves: Curves, measured: list[str], end: float) -> PanelLine:
     use = TOPICS[key.topic]
     t, value = curves.samples[key]
+    outliers = np.empty(0) if use.is_set_point else _outliers(curves, key)
     is_reference = key.topic == 'position_reference'
     if not is_reference:
-        t, value = thinned(t, value, columns)
+        t, value = with_gaps(t, value)
     elif t[-1] < end:
         t, value = np.append(t, end), np.append(value, value[-1])
-    is_held = use.is_set_point and key.topic != 'pam_control/state'
-    name = name_of(key, curves.muscles)
-    return PanelLine(name, _number(key, measured), use.is_set_point, is_held, t, value)
+    return PanelLine(
+        name_of(key, curves.muscles),
+        _number(key, measured),
+        use.is_set_point,
+        use.is_set_point and key.topic != 'pam_control/state',
+        t,
+        value,
+        column_name(key, curves.muscles, len(measured)),
+        outliers,
+    )
+
+
+def _outliers(curves: Curves, key: Key) -> Array:
+    """Return the stamps of the outliers of a measured curve; a command acts, however short."""
+    t, _ = curves.samples[key]
+    found = t[curves.is_outlier[key]] if key in curves.is_outlier else np.empty(0)
+    # A signal that has many is like that.
+    return found if found.size <= max(MOST * t.size, LONGEST) else np.empty(0)
 
 
 def _order(key: Key) -> tuple[bool, int, int]:
@@ -127,25 +154,9 @@ def name_of(key: Key, muscles: tuple[str, ...]) -> str:
     return f'{name}, commanded' if TOPICS[key.topic].is_set_point else name
 
 
-def thinned(t: Array, value: Array, columns: int | None) -> tuple[Array, Array]:
-    """Return a curve with NaN in its gaps, and at most two values in each of *columns* of time.
-
-    There is a gap at each pause of the samples, and at each step of time backwards.
-    """
+def with_gaps(t: Array, value: Array) -> tuple[Array, Array]:
+    """Return a curve with NaN in its gaps: each pause of the samples, and time that goes back."""
     step = np.diff(t)
     limit = max(GAP_PERIODS * float(np.median(step)), GAP_SECONDS) if step.size else np.inf
     cuts = np.flatnonzero((step > limit) | (step < 0.0)) + 1
-    parts: list[tuple[Array, Array]] = []
-    for own_t, own in zip(np.split(t, cuts), np.split(value, cuts), strict=True):
-        if parts:
-            parts.append((own_t[:1], np.array([np.nan])))
-        parts.append((own_t, own) if columns is None else _envelope(own_t, own, columns, t.size))
-    return np.concatenate([one for one, _ in parts]), np.concatenate([one for _, one in parts])
-
-
-def _envelope(t: Array, value: Array, columns: int, size: int) -> tuple[Array, Array]:
-    """Return a part of a curve of *size* samples, thinned to its share of *columns*."""
-    # It imports matplotlib, which a live page does not need.
-    from pam_ros.report.style import envelope
-
-    return envelope(t, value, max(1, round(columns * t.size / size)))
+    return np.insert(t, cuts, t[cuts]), np.insert(value, cuts, np.nan)

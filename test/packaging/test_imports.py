@@ -60,8 +60,8 @@ ROS = {
 }
 # What the other rooms may import in addition to themselves and Python's own library.
 ALLOWED = {
-    *('distributed', 'jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'openpyxl', 'rosbags'),
-    'scipy',
+    *('bokeh', 'distributed', 'jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'openpyxl'),
+    *('rosbags', 'scipy'),
     *('tqdm', 'yaml'),
     'pam_ros',
 }

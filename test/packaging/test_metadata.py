@@ -18,6 +18,7 @@ from support.imports import imported
 ROOT = Path(__file__).parents[2]
 # rosdep's names for Python packages, and what each is imported as.
 IMPORTED_AS = {
+    'python3-bokeh-pip': 'bokeh',
     'python3-jinja2': 'jinja2',
     'python3-matplotlib': 'matplotlib',
     'python3-numba': 'numba',

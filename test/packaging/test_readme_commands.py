@@ -46,7 +46,7 @@ OF_OTHERS = (
     'colcon build',
     'dask scheduler',
     'dask worker tcp://',
-    'pip install --user --break-system-packages mcap rosbags',
+    'pip install --user --break-system-packages bokeh mcap rosbags',
     'python3 examples/own_controller.py',
     'ros2 bag',
     'ros2 run plotjuggler plotjuggler',

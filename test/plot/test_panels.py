@@ -9,8 +9,9 @@ import pytest
 from pam_ros.errors import PamError
 from pam_ros.plot.colours import COLOURS, colour
 from pam_ros.plot.figure import figure, save
-from pam_ros.plot.panels import Curves, name_of, panels, thinned
+from pam_ros.plot.panels import Curves, name_of, panels, with_gaps
 from pam_ros.plot.topics import Key
+from pam_ros.plot.value_axis import judged
 
 T = np.arange(200) / 100.0
 
@@ -85,37 +86,47 @@ def test_joints_have_colours_of_their_own():
 
 def test_a_pause_and_a_time_that_goes_back_are_gaps():
     t = np.concatenate([T, T + 10.0, T + 5.0])
-    found_t, found = thinned(t, np.ones(t.size), None)
+    found_t, found = with_gaps(t, np.ones(t.size))
     assert found.size == t.size + 2
     assert np.isnan(found[[T.size, 2 * T.size + 1]]).all()
     assert np.isfinite(found).sum() == t.size
     assert found_t[T.size] == 10.0
     slow = np.arange(20.0)  # a period of 1 s is no pause
-    assert np.isfinite(thinned(slow, slow, None)[1]).all()
-
-
-def test_a_long_recording_is_thinned_with_its_peaks():
-    t = np.arange(100_000) / 500.0
-    value = np.sin(t)
-    value[54_321] = 5.0
-    found_t, found = thinned(t, value, 1000)
-    assert found.size <= 2000
-    assert found.max() == 5.0
-    assert abs(found_t[np.argmax(found)] - t[54_321]) <= 0.5
+    assert np.isfinite(with_gaps(slow, slow)[1]).all()
 
 
 def test_the_figure_has_all_lines_on_one_axis_of_time():
     made = panels(Curves(ONE), 'm', 2.0)
     drawn = figure(made, 0.0, 2.0)
-    assert [ax.get_title(loc='left') for ax in drawn.axes] == [one.title for one in made]
+    assert [ax.get_title(loc='left') for ax in drawn.axes] == [
+        'position, mm',
+        'pressure (gauge), kPa',
+        'force, N',
+        'stiffness, N/m',
+        'damping, N·s/m',
+    ]
+    factors = {'position': 1e3, 'pressure': 1e-3}
     for ax, panel in zip(drawn.axes, made, strict=True):
         assert ax.get_xlim() == (0.0, 2.0)
         names = [text.get_text() for text in ax.get_legend().get_texts()]
         assert names == [line.name for line in panel.lines]
         for line, own in zip(ax.get_lines(), panel.lines, strict=True):
-            assert np.array_equal(line.get_ydata(), own.value)
+            factor = factors.get(panel.quantity, 1.0)
+            assert np.array_equal(line.get_ydata(), factor * own.value)
             assert line.get_color() == colour(own.number)
     assert drawn.axes[-1].get_xlabel() == 'time, s'
+
+
+def test_the_figure_counts_what_is_outside():
+    value = 0.05 + 0.001 * np.sin(T)
+    value[77] = 60.0
+    key = Key('position', 'joint_states', 'pam')
+    (panel,) = panels(judged(Curves({key: (T, value)})), 'm', 2.0)
+    (ax,) = figure([panel], 0.0, 2.0).axes
+    assert 48.0 < ax.get_ylim()[0] < ax.get_ylim()[1] < 52.0
+    assert [text.get_text() for text in ax.texts] == ['▲ 1 sample is outside']
+    marks = [line for line in ax.get_lines() if line.get_marker() == '^']
+    assert [line.get_xdata().tolist() for line in marks] == [[T[77]]]
 
 
 def test_a_file_is_written_completely_or_not_at_all(tmp_path):

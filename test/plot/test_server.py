@@ -12,7 +12,7 @@ import pytest
 
 from pam_ros.errors import PamError
 from pam_ros.plot.panels import Curves, panels
-from pam_ros.plot.server import HOST, PageServer, content
+from pam_ros.plot.server import HOST, PageServer, Window, content
 from pam_ros.plot.topics import Key
 
 
@@ -22,7 +22,9 @@ def server():
     value = np.array([1.0, 2.0, 3.0, 1.0 / 3.0, 5.0])
     samples = {Key('force', 'force'): (np.concatenate([t, [30.0]]), np.append(value, 6.0))}
     made = panels(Curves(samples), 'm', 30.0)
-    server = PageServer(lambda: content(made, 10.0, 30.0, 29.0, note='a note'))
+    server = PageServer(
+        lambda window: content(made, 10.0, 30.0, 29.0, note='a note', window=window)
+    )
     server.start()
     yield server
     server.close()
@@ -47,7 +49,16 @@ def test_the_page_needs_nothing_from_the_network(server):
     assert "default-src 'none'" in headers['Content-Security-Policy']
     assert headers['Cache-Control'] == 'no-store'
     assert '<title>pam_plot</title>' in text
-    assert not re.search(r'https?://|//\w+\.\w|@import|<script[^>]+src|<link[^>]+href="[^d]', text)
+    assert not re.search(r'https?://|//\w+\.\w|@import|<link[^>]+href="[^d]', text)
+    scripts = re.findall(r'<script[^>]+src="([^"]*)"', text)
+    assert scripts == ['bokeh.min.js', 'bokeh-api.min.js']
+    for name in scripts:
+        status, headers, body = ask(server, f'/{name}')
+        assert status == 200
+        assert headers['Content-Type'].startswith('text/javascript')
+        assert len(body) > 50_000
+    # It needs no code from strings.
+    assert 'unsafe-eval' not in headers['Content-Security-Policy']
 
 
 def test_the_numbers(server):
@@ -68,8 +79,41 @@ def test_the_numbers(server):
     (line,) = panel['lines']
     assert (line['name'], line['setPoint'], line['held']) == ('force', False, False)
     assert len(line['t']) == len(line['value'])
-    # A pause of 20.9 s is above ten periods of 1 s: a gap.
-    assert line['value'] == [1.0, 2.0, 3.0, 0.3333333, 5.0, None, 6.0]
+    # The axis begins at 10 s, to which the line leads from before. A pause of 20.9 s is above ten
+    # periods of 1 s: a gap.
+    assert line['t'] == [9.1, 30.0, 30.0]
+    assert line['value'] == [5.0, None, 6.0]
+
+
+def test_a_part_of_the_numbers(server):
+    _, _, body = ask(server, '/data?from=0.5&to=8.5')
+    (line,) = json.loads(body)['panels'][0]['lines']
+    assert line['t'] == [0.0, 1.0, 8.0, 9.0]
+    assert line['value'] == [1.0, 2.0, 3.0, 0.3333333]
+
+
+@pytest.mark.parametrize(
+    'query',
+    ['from=1', 'from=1&to=x', 'from=2&to=1', 'from=nan&to=1', 'from=0&to=inf', 'from=0&to=1&a=1'],
+)
+def test_a_part_that_is_none_is_refused(server, query):
+    status, _, body = ask(server, f'/data?{query}')
+    assert status == 400
+    assert b'Traceback' not in body
+
+
+def test_the_whole_axis_is_thinned_a_part_less_and_a_file_not_at_all():
+    t = np.arange(100_000) / 1000.0
+    made = panels(Curves({Key('force', 'force'): (t, np.sin(50.0 * t))}), 'm', 100.0)
+
+    def count(window):
+        found = content(made, 0.0, 100.0, 100.0, window=window)
+        (line,) = found['panels'][0]['lines']
+        return len(line['t'])
+
+    assert 1000 < count(None) <= 1202
+    assert 10_000 < count(Window(0.0, 50.0, is_complete=False)) <= 12_002
+    assert count(Window(0.0, 50.0, is_complete=True)) == 50_002
 
 
 @pytest.mark.parametrize('name', ['127.0.0.1', 'localhost'])
@@ -102,7 +146,7 @@ def test_there_is_nothing_else(server, path, method, code):
 
 def test_a_port_that_is_taken_is_one_sentence(server):
     with pytest.raises(PamError, match=f'^port {server.port} of 127.0.0.1 cannot be used: '):
-        PageServer(dict, server.port)
+        PageServer(lambda window: {}, server.port)
 
 
 def test_a_browser_that_holds_its_connection_does_not_hold_up_the_end(server):

@@ -26,7 +26,7 @@ from pam_ros.plot.history import History
 from pam_ros.plot.message_times import Arrived, MessageTimes
 from pam_ros.plot.options import Options, add_arguments, checked
 from pam_ros.plot.panels import panels
-from pam_ros.plot.server import PageServer, content
+from pam_ros.plot.server import PageServer, Window, content
 from pam_ros.plot.topics import TOPICS, muscles_of, numbers
 from pam_ros.recording.bag.clocks import stamp_of
 from pam_ros.recording.bag.topics import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE
@@ -197,14 +197,14 @@ class PamPlot(TickingNode):
                 now = max(self.get_clock().now().nanoseconds, now)
             return (now - self._origin) / SECOND
 
-    def _look(self) -> dict[str, Any]:
-        """Return the data that the page draws now."""
+    def _look(self, window: Window | None) -> dict[str, Any]:
+        """Return the data that the page draws now, finer within a *window*."""
         now, span = self._end(), self._options.seconds
         drawn = panels(self._history.curves(now), self._options.unit, now)
         with self._lock:
             note = self._note
         start = max(now - span, 0.0)
-        return content(drawn, start, start + span, now, note=note)
+        return content(drawn, start, start + span, now, note=note, window=window)
 
     def _draw(self, start: float, end: float) -> None:
         """Write the PNG file, and end."""
