@@ -3,147 +3,17 @@
 """The page of ``pam_plot`` in a real browser: what the mouse and the buttons do."""
 
 import re
-from types import SimpleNamespace
 
 import matplotlib.image
 import numpy as np
 import pytest
 
-from pam_ros.plot.panels import Curves, panels
 from pam_ros.plot.recorded import read
-from pam_ros.plot.server import PageServer, content
 from pam_ros.plot.topics import Key
-from pam_ros.plot.value_axis import judged, value_axis
+from pam_ros.plot.value_axis import value_axis
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.read import read_recording
-from support.devtools import page_in
-
-POSITION = Key('position', 'joint_states', 'pam')
-REFERENCE = Key('position', 'position_reference')
-COMMAND, PRESSURE = Key('pressure', 'pressure_command'), Key('pressure', 'pressure')
-FORCE = Key('force', 'force')
-SPAN = 20.0  # s
-READY = 'sections.length && sections.every(({ view }) => view)'
-
-
-class Rig:
-    """Signals of which every value is known, at a time that a test sets."""
-
-    def __init__(self, is_live=True, unit='m'):
-        self.now, self.is_live, self.unit, self.spike = 20.0, is_live, unit, None
-
-    def panels(self):
-        t = np.arange(round(100.0 * self.now) + 1) / 100.0
-        position = 0.01 * t
-        if self.spike is not None:
-            position[round(100.0 * self.spike)] = 60.0
-        steps = np.arange(0.0, self.now, 3.0)
-        curves = {
-            POSITION: (t, position),
-            REFERENCE: (steps, 0.01 * steps),
-            COMMAND: (steps, 1e4 * steps),
-            PRESSURE: (t[::2], 5e3 * t[::2]),
-            FORCE: (t, 100.0 + 10.0 * np.sin(t)),
-        }
-        return panels(judged(Curves(curves)), self.unit, self.now)
-
-    def look(self, window):
-        start = max(self.now - SPAN, 0.0) if self.is_live else 0.0
-        end = start + SPAN if self.is_live else self.now
-        return content(
-            self.panels(),
-            start,
-            end,
-            self.now,
-            is_live=self.is_live,
-            window=window,
-        )
-
-
-@pytest.fixture(scope='module')
-def chromium(browser, tmp_path_factory):
-    with page_in(browser, tmp_path_factory.mktemp('chromium')) as page:
-        yield page
-
-
-@pytest.fixture
-def show(chromium):
-    """Return a function that opens the page of a rig, and gives what can be done with it."""
-    servers = []
-
-    def opened(rig):
-        server = PageServer(rig.look)
-        server.start()
-        servers.append(server)
-        chromium.open(server.address)
-        chromium.until(f"typeof sections !== 'undefined' && {READY}", 'the plots')
-        return Shown(chromium)
-
-    chromium.requests.clear()
-    chromium.errors.clear()
-    for old in chromium.downloads.iterdir():
-        old.unlink()
-    yield opened
-    chromium.close()
-    for server in servers:
-        server.close()
-    own = tuple(server.address for server in servers)
-    foreign = [url for url in chromium.requests if not url.startswith((*own, 'data:', 'blob:'))]
-    assert foreign == []
-    assert chromium.errors == []
-
-
-class Shown:
-    """The page, with the places of its plots."""
-
-    def __init__(self, page):
-        self.page = page
-
-    def plots(self):
-        """Return the frames of the plots in px, and their ranges."""
-        return [
-            SimpleNamespace(**one)
-            for one in self.page.ask("""sections.map(({ plot, view, y }) => {
-              const box = plot.getBoundingClientRect(), frame = view.frame.bbox;
-              return { left: box.left + frame.left, top: box.top + frame.top, width: frame.width,
-                height: frame.height, start: view.frame.x_range.start, end: view.frame.x_range.end,
-                low: y.start, high: y.end };
-            })""")
-        ]
-
-    def place(self, t, plot=0, share=0.5):
-        """Return the place in px of a time in a plot, at a share of its height from above."""
-        one = self.plots()[plot]
-        across = (t - one.start) / (one.end - one.start)
-        return one.left + across * one.width, one.top + share * one.height
-
-    def axis(self):
-        """Return the times at the ends of all plots, which are the same."""
-        found = {(one.start, one.end) for one in self.plots()}
-        assert len(found) == 1
-        return found.pop()
-
-    def zoom(self, start, end, plot=0):
-        before = self.axis()
-        self.page.drag(self.place(start, plot), self.place(end, plot))
-        self.page.until(f'x.start !== {before[0]} || x.end !== {before[1]}', 'the zoom')
-
-    def values(self):
-        """Return the texts in the legends by the names of the lines."""
-        texts = self.page.ask('[...document.querySelectorAll(".line")].map((e) => e.textContent)')
-        return dict(text.split(' ', 1) for text in texts)
-
-    def click_on(self, selector):
-        self.page.ask(f'document.querySelector({selector!r}).click()')
-
-    def legend(self, name):
-        """Click the entry of a line in its legend."""
-        box = self.page.ask(f"""(() => {{
-          const found = [...document.querySelectorAll('.line')]
-            .find((e) => e.textContent.startsWith('{name} ')).getBoundingClientRect();
-          return [found.left + found.width / 2, found.top + found.height / 2];
-        }})()""")
-        self.page.click(*box)
+from support.plotted import COMMAND, FORCE, PRESSURE, READY, Rig
 
 
 def number(text):
@@ -159,7 +29,7 @@ def test_a_drag_zooms_all_plots_and_reset_goes_back(show, is_live):
     start, end = shown.axis()
     assert (start, end) == pytest.approx((5.0, 8.0), abs=0.1)
     # The axes are those of what is seen.
-    shown.page.until('sections[2].y.start > 80', 'the axes of values')
+    shown.page.until('sections[0].y.end < 100', 'the axes of values')
     for plot, panel in zip(shown.plots(), rig.panels(), strict=True):
         factor = {'position': 1e3, 'pressure': 1e-3}.get(panel.quantity, 1.0)
         axis = value_axis(panel.lines, start, end)
@@ -413,9 +283,9 @@ def test_plots_that_appear_later_and_lines_that_stay_hidden(show):
     shown.legend('pressure')
     every = rig.panels
     rig.panels = lambda: every()[:2]
-    shown.page.until('sections.length === 2 && sections.every(({ view }) => view)', 'two plots')
+    shown.page.until(f'sections.length === 2 && {READY}', 'two plots')
     rig.panels = every
-    shown.page.until('sections.length === 3 && sections.every(({ view }) => view)', 'three plots')
+    shown.page.until(f'sections.length === 3 && {READY}', 'three plots')
     assert shown.page.ask('sections[1].lines.map(({ drawn }) => drawn.visible)') == [True, False]
     pressed = shown.page.ask(
         '[...document.querySelectorAll(".line")].map((e) => e.ariaPressed === "true")'

@@ -62,16 +62,24 @@ class Page:
 
     def call(self, method, **parameters):
         """Call a method of the protocol, and return its result."""
+        return self._answer(self._send(method, parameters))
+
+    def _send(self, method, parameters):
+        """Send a message, and return its number."""
         self._number += 1
         message = {'id': self._number, 'method': method, 'params': parameters}
         if self._session:
             message['sessionId'] = self._session
         os.write(self._write, json.dumps(message).encode() + b'\0')
+        return self._number
+
+    def _answer(self, number):
+        """Return the result of the message with this number."""
         end = time.monotonic() + PATIENCE
-        while self._number not in self._answers:
+        while number not in self._answers:
             self._receive(end)
-        answer = self._answers.pop(self._number)
-        assert 'error' not in answer, (method, answer)
+        answer = self._answers.pop(number)
+        assert 'error' not in answer, answer
         return answer['result']
 
     def _receive(self, end):
@@ -84,7 +92,7 @@ class Page:
             message = json.loads(text)
             if 'id' in message:
                 self._answers[message['id']] = message
-            else:
+            elif message.get('sessionId') == self._session:  # not of a page that was closed
                 self._note(message['method'], message['params'])
 
     def _note(self, method, parameters):
@@ -120,11 +128,18 @@ class Page:
         self.mouse('mouseMoved', x, y)
 
     def click(self, x, y, count=1):
-        """Click at a place in px, *count* times quickly."""
+        """Click at a place in px, *count* times quickly: no click waits for the one before."""
         self.move(x, y)
-        for number in range(1, count + 1):
-            for kind in ('mousePressed', 'mouseReleased'):
-                self.mouse(kind, x, y, button='left', buttons=1, clickCount=number)
+        sent = [
+            self._send(
+                'Input.dispatchMouseEvent',
+                {'type': kind, 'x': x, 'y': y, 'button': 'left', 'clickCount': number},
+            )
+            for number in range(1, count + 1)
+            for kind in ('mousePressed', 'mouseReleased')
+        ]
+        for number in sent:
+            self._answer(number)
 
     def drag(self, start, end):
         """Drag from one place in px to another."""

@@ -4,6 +4,8 @@
 
 import http.client
 import json
+import subprocess
+import sys
 
 import matplotlib.image
 import numpy as np
@@ -235,6 +237,22 @@ def test_a_node_on_the_wall_next_to_a_simulated_one_is_one_sentence(peer):
     assert len(ends) == 2
     assert all(0.0 <= found['now'] - end <= 60.0 for end in ends)
     assert found['end'] - found['start'] == pytest.approx(20.0)
+
+
+WITHOUT_BOKEH = """
+import runpy, sys
+sys.modules['bokeh'] = None
+runpy.run_module('pam_ros.cli.pam_plot', run_name='__main__', alter_sys=True)
+"""
+
+
+def test_a_page_of_a_rig_without_bokeh_is_one_sentence():
+    command = [sys.executable, '-c', WITHOUT_BOKEH]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=240)
+    assert done.returncode == 2
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith('pam_plot: the page is drawn by the Python package bokeh, which is not')
+    assert 'Traceback' not in done.stderr
 
 
 def test_bad_arguments_end_it_with_a_sentence(tmp_path):
