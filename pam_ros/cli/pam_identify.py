@@ -20,6 +20,7 @@ from typing import NoReturn
 
 from pam_ros.cli.help_text import help_text
 from pam_ros.cli.pool_options import add_pool_options, pool_of
+from pam_ros.cli.progress_bar import ProgressBar
 from pam_ros.cli.sentence_parser import BAD_INPUT, SentenceParser
 from pam_ros.cli.set_order import values_of_files
 from pam_ros.errors import PamError, printable, shown
@@ -138,44 +139,11 @@ def _add_batch_options(made: argparse.ArgumentParser) -> None:
     add_pool_options(made, 'rigs', 'with --each: ')
 
 
-class ProgressBar:
-    """Shows the current step: a bar on a terminal, else a line when a new step begins."""
-
-    def __init__(self) -> None:
-        """Start at 0 %."""
-        from tqdm import tqdm
-
-        self._text = ''
-        self._is_shown = sys.stderr.isatty()
-        self._bar = tqdm(
-            total=1.0,
-            disable=not self._is_shown,
-            leave=False,
-            bar_format='{percentage:3.0f} % |{bar:24}| {desc}',
-        )
-
-    def __call__(self, fraction: float, text: str) -> None:
-        """Show the progress (0 to 1) and the current step."""
-        if text != self._text and not self._is_shown:
-            print(f'{100.0 * fraction:3.0f} %  {text}', file=sys.stderr, flush=True)
-        self._text = text
-        self._bar.set_description_str(text, refresh=False)
-        self._bar.update(fraction - self._bar.n)
-        self._bar.refresh()
-
-    def say(self, text: str) -> None:
-        """Print a line above the bar."""
-        self._bar.write(shown(text), file=sys.stderr)
-
-    def close(self) -> None:
-        """Remove the bar from the terminal."""
-        self._bar.close()
-
-
 def run(given: argparse.Namespace, command: str) -> str:
     """Run the identification of the command line, write the report, return a summary."""
     from pam_ros.compiled import HAVE_NUMBA
     from pam_ros.identification.summary import details, last_line
+    from pam_ros.identification.workers import thread_count
     from pam_ros.recording.warning_list import warning_list
     from pam_ros.report.provenance import provenance
     from pam_ros.report.write import check_folder, write_report
@@ -190,10 +158,11 @@ def run(given: argparse.Namespace, command: str) -> str:
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
     source = provenance(inputs, given.set, command)
-    progress = ProgressBar()
+    threads = thread_count()
+    progress = ProgressBar(f'{threads} core{"" if threads == 1 else "s"} ({inputs.size})')
     try:
         with end_promptly(sentence=STOPPED):  # kernels are compiled here
-            answer = inputs.identify(progress, progress.say)
+            answer = inputs.identify(progress, progress.say, progress.time_left)
         progress(1.0, 'writing the report')
         write_report(given.out, answer, source)
     finally:

@@ -22,9 +22,9 @@ from pam_ros.identification.fit.extend import bounded, with_effect
 from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.fit.solve import converge, initial_solution
 from pam_ros.identification.fit.unknowns import OfEffect
+from pam_ros.identification.search.forecast import of_search
 from pam_ros.identification.search.readings import likely_mistake
 from pam_ros.identification.search.search import (
-    Progress,
     Search,
     find_effects,
     find_effects_from,
@@ -38,8 +38,6 @@ from pam_ros.identification.wording import listed
 from pam_ros.recording.quantities import ATMOSPHERE
 from pam_ros.recording.recording import Recording
 
-# Shares of the progress at which the searches begin.
-MOTION, TOGETHER = 0.3, 0.6
 # Effects that an error of the pressure sensor imitates, its offset or the age of its samples: the
 # motion must show them as well.
 OF_SENSOR = ('pressure_offset', 'dead_time')
@@ -67,41 +65,39 @@ def find_by_signal(
     setting: Setting,
     recordings: Sequence[Recording],
     shares: tuple[float, float],
-    progress: Progress,
 ) -> BySignal:
     """Find the effects in *recordings*, which have commands and measured pressures.
 
     *setting* is their setting, and *shares* are those of its parts. What judges there is used
     nowhere else.
     """
-
-    def part(begin: float, end: float, what: str) -> Progress:
-        return lambda share, text: progress(begin + share * (end - begin), f'{what}: {text}')
-
     chambers = [of_chambers(one) for one in recordings]
     of_path = replace(setting, parts=parts_in_turn(chambers, *shares))
     path, reason = None, idle(recordings) or copied(recordings)
     if not reason and (doubt := likely_mistake(of_path, {})):
         reason = doubt.reason
+    behind = [behind_chambers(one) for one in recordings]
+    of_motion = replace(setting, parts=like(setting.parts, behind), is_behind_chambers=True)
+    both = of_search(setting)
     if not reason:
-        path = _found(of_path, part(0.0, MOTION, 'pressures'))
+        with setting.work.part('pressures', of_search(of_motion).plus(both)):
+            path = _found(of_path)
         reason = contradiction(path)
     if path is None or reason:
         note = f'the measured pressures are not used: {reason}'
-        return BySignal(find_effects(setting, progress), None, note)
-    behind = [behind_chambers(one) for one in recordings]
-    of_motion = replace(setting, parts=like(setting.parts, behind), is_behind_chambers=True)
-    motion = _found(of_motion, part(MOTION, TOGETHER, 'motion'))
-    together = part(TOGETHER, 1.0, 'both')
-    found = without_effects(setting, together)
-    found.kept = tuple(one for one in path.best.effects if effect_of(one) not in OF_SENSOR)
-    begin = joined(found, path.best, motion.best)
-    return BySignal(find_effects_from(found, begin, together), path)
+        return BySignal(find_effects(setting), None, note)
+    with setting.work.part('motion', both):
+        motion = _found(of_motion)
+    with setting.work.part('both'):
+        found = without_effects(setting)
+        found.kept = tuple(one for one in path.best.effects if effect_of(one) not in OF_SENSOR)
+        begin = joined(found, path.best, motion.best)
+        return BySignal(find_effects_from(found, begin), path)
 
 
-def _found(setting: Setting, progress: Progress) -> Search:
+def _found(setting: Setting) -> Search:
     """Return the search of a part, whose effects the search of all confirms."""
-    return improved(without_effects(setting, progress), progress)
+    return improved(without_effects(setting))
 
 
 def idle(recordings: Sequence[Recording]) -> str:

@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The error of the nominal model, the effects that it lacks, and the error with these effects."""
 
-import os
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import fields, replace
 from functools import partial
@@ -35,17 +34,13 @@ from pam_ros.identification.identification import Identification
 from pam_ros.identification.outcome import Given, Outcome, search_recordings
 from pam_ros.identification.result import Conclusion, Estimate, Finding, Stage, Verdict
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.final import FinalFits, fit_finally
+from pam_ros.identification.search.final import FinalFits, fit_finally, forecast_of_final
 from pam_ros.identification.search.levels import apart
 from pam_ros.identification.search.onset import (
     OnsetEstimate,
     estimate_onset_after,
 )
-from pam_ros.identification.search.search import (
-    Progress,
-    Search,
-    alternatives,
-)
+from pam_ros.identification.search.search import Search, alternatives
 from pam_ros.identification.search.setting import Setting, transfer
 from pam_ros.identification.search.stages import (
     at_place,
@@ -64,6 +59,8 @@ from pam_ros.identification.verdict import (
     sentence,
     verdict,
 )
+from pam_ros.identification.work import Progress, TimeLeft, Work
+from pam_ros.identification.workers import Workers
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.inputs import driving, refuse_copies, refuse_idle
 from pam_ros.recording.recording import Recording
@@ -72,9 +69,6 @@ from pam_ros.rig.changes import refuse_onsets
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
-# Simulations run in parallel; the rest of a fit, a third of its time, does not: more threads would
-# wait for each other.
-THREADS = 4
 
 
 @contextmanager
@@ -98,14 +92,16 @@ def identify(
     uncertain: Mapping[str, float | str] | None = None,
     warn: Callable[[str], object] | None = None,
     muscles: Mapping[str, Muscle] | None = None,
+    time_left: TimeLeft | None = None,
 ) -> Identification:
     """Identify the effects of the model's library that *recordings* show beyond *model*.
 
     *recordings* and *test* are recordings of the joint, one or several. Errors are evaluated on
     *test*. Without it, they are evaluated on the part of each recording that was not used before,
     see :mod:`pam_ros.identification.data.parts`. progress(share, text) is called with the share of
-    the work that is done and a text about the next step. warn(text) is called with each warning
-    that is known before the fits, which may take minutes.
+    the work that is done and a text about the next step, and time_left(low, high) before it with
+    the s that the rest takes at least and at most, as soon as they are known. warn(text) is called
+    with each warning that is known before the fits, which may take minutes.
 
     *uncertain* are standard deviations of nominal values by the names of parameters, such as
     ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Numbers
@@ -120,24 +116,26 @@ def identify(
     """
     uncertain = {} if uncertain is None else uncertain
     recordings, test = _checked(model, recordings, test, uncertain)
-    notify: Progress = progress or (lambda share, text: None)
+    work = Work(progress, time_left)
     # With test recordings, no part of the others is needed to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
-    with ThreadPoolExecutor(min(os.cpu_count() or 1, THREADS)) as pool:
-        setting_of = partial(_setting, shares, pool, uncertain)
+    with Workers(work.update) as pool:
+        setting_of = partial(_setting, shares, pool, uncertain, work)
         setting = setting_of(model, recordings)
         for text in undetermined_before(setting.problem, setting.noise, pool):
             if warn is not None:
                 warn(text)
         given = Given(tuple(recordings), tuple(test), shares)
-        outcome = search_recordings(setting, given, setting_of, muscles or {}, notify)
-        notify(0.9, 'fitting the chosen models in full')
+        last = forecast_of_final(setting)
+        with work.part('', last):
+            outcome = search_recordings(setting, given, setting_of, muscles or {})
+        work.step('fitting the chosen models in full', last)
         ends = fit_finally(outcome.search)
         tests = segments_of(outcome.given.test)
         three = stages(ends, outcome.search, tests)
         decision = _decision(outcome, three)
         conclusion = _conclusion(decision, outcome, ends, three, tests)
-    notify(1.0, 'done')
+    work.end()
     # Another statement about the same recordings may help more than another recording.
     following = outcome.remedy or next_experiment(conclusion, model)
     return Identification(
@@ -164,12 +162,13 @@ def _setting(
     shares: tuple[float, float],
     pool: Executor,
     uncertain: Mapping[str, float | str],
+    work: Work,
     joint: Joint,
     recordings: Sequence[Recording],
 ) -> Setting:
     """Return the setting of a search in *recordings* of *joint*."""
     parts, muscles = _parts(recordings, shares), recordings[0].muscles
-    return Setting(joint, parts, CRITERIA, BUDGET, pool, muscles, uncertain)
+    return Setting(joint, parts, CRITERIA, BUDGET, pool, muscles, uncertain, work=work)
 
 
 def _parts(recordings: Sequence[Recording], shares: tuple[float, float]) -> list[Part]:

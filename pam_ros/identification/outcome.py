@@ -18,7 +18,7 @@ from pam_ros.identification.search.doubt import Doubt
 from pam_ros.identification.search.late import Late, find_late_effects
 from pam_ros.identification.search.onset import OnsetEstimate, estimate_onset
 from pam_ros.identification.search.readings import likely_mistake
-from pam_ros.identification.search.search import Progress, Search, find_effects, without_effects
+from pam_ros.identification.search.search import Search, find_effects, without_effects
 from pam_ros.identification.search.setting import Setting
 from pam_ros.identification.verdict import NextExperiment, too_little
 from pam_ros.muscle.muscle import Muscle
@@ -73,7 +73,6 @@ def search_recordings(
     given: Given,
     setting_of: SettingOf,
     muscles: Mapping[str, Muscle],
-    notify: Progress,
 ) -> Outcome:
     """Search for effects in what is *given*, unless it contradicts what was stated about it.
 
@@ -82,18 +81,19 @@ def search_recordings(
     """
     lacking = too_little([part.segment for part in setting.parts], setting.noise, CRITERIA)
     if lacking:
-        search = _search(setting, None, given, notify)
+        search = _search(setting, None, given)
         return Outcome(search, None, given, lacking)
     doubt = likely_mistake(setting, muscles)
     if doubt:
-        return Outcome(without_effects(setting, notify), None, given).doubting(doubt)
+        return Outcome(without_effects(setting), None, given).doubting(doubt)
 
     def again(recordings: Sequence[Recording]) -> Outcome:
         corrected = replace(given, recordings=tuple(recordings))
         own = setting_of(setting.joint, recordings)
-        return _searched(own, corrected, lambda share, text: notify(0.85, text))
+        with setting.work.part('with corrected clocks'):
+            return _searched(own, corrected)
 
-    first = _searched(setting, given, notify)
+    first = _searched(setting, given)
     # Before the clocks, since another load can seem to be another clock, and takes longer.
     doubt = different_loads(first.search, given.recordings)
     if doubt:
@@ -104,20 +104,18 @@ def search_recordings(
     return replace(outcome, given=given, clocks=(*sentences, *others))
 
 
-def _searched(setting: Setting, given: Given, notify: Progress) -> Outcome:
+def _searched(setting: Setting, given: Given) -> Outcome:
     since = estimate_onset(setting)
     if since is None and have_pressures(given.recordings):
-        found = find_by_signal(setting, given.recordings, given.shares, notify)
+        found = find_by_signal(setting, given.recordings, given.shares)
         return Outcome(found.search, None, given, path=found.path, note=found.note)
-    return Outcome(_search(setting, since, given, notify), since, given)
+    return Outcome(_search(setting, since, given), since, given)
 
 
-def _search(
-    setting: Setting, since: OnsetEstimate | None, given: Given, notify: Progress
-) -> Search:
+def _search(setting: Setting, since: OnsetEstimate | None, given: Given) -> Search:
     """Search for effects; for those that begin *since* then, in the parts after that time."""
     if since is None:
-        return find_effects(setting, notify)
+        return find_effects(setting)
     (recording,) = given.recordings
     late = Late(setting, since, recording, given.shares, CRITERIA.duration)
-    return find_late_effects(late, notify)
+    return find_late_effects(late)

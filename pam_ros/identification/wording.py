@@ -3,10 +3,14 @@
 """Numbers and names as texts for readers: few digits, convenient units, true minus signs."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 _SUPERSCRIPT = str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹')
 ABSENT = '–'
+SHORTEST = 5.0  # s that are shown as the lower end of a time
+# Times up to so many s are shown in units of so many s, with this name.
+TIMES = ((60.0, 1.0, 's'), (7200.0, 60.0, 'min'), (math.inf, 3600.0, 'h'))
 
 
 @dataclass(frozen=True)
@@ -56,6 +60,26 @@ def interval(low: float, high: float, digits: int = 3) -> str:
     if 0.0 < width < largest < math.inf:
         digits = min(max(digits, 1 + math.ceil(math.log10(largest / width))), 7)
     return f'{number(low, digits)} to {number(high, digits)}'
+
+
+def time_span(low: float, high: float) -> str:
+    """Return a time from *low* to *high* s in few digits: "1 to 4 min", "10 s to 2 min"."""
+    if high <= 60.0:
+        return 'less than a minute'
+    last, unit = _time(high, math.ceil)
+    first, smaller = _time(low, math.floor)
+    if low < SHORTEST:
+        return f'up to {last} {unit}'
+    if smaller != unit:
+        return f'{first} {smaller} to {last} {unit}'
+    return f'about {last} {unit}' if first >= last else f'{first} to {last} {unit}'
+
+
+def _time(seconds: float, whole: Callable[[float], int]) -> tuple[int, str]:
+    """Return a time in s, min or h, rounded to a multiple of 5 if it is above 10, and its unit."""
+    size, unit = next((size, unit) for most, size, unit in TIMES if seconds < most)
+    value = seconds / size
+    return whole(5.0 * round(value / 5.0) if value > 10.0 else round(value, 1)), unit
 
 
 def probability(p: float) -> str:

@@ -50,10 +50,30 @@ class Inputs:
         is_moved = any(one.kind == 'free' for one in recordings)
         return example_mass(self.params, self.nominal.joint, names) if is_moved else ''
 
+    @property
+    def size(self) -> str:
+        """What an identification has to compute: ``3 recordings, 12000 samples, 18 effects``."""
+        recordings = [*self.recordings, *self.test]
+        joint, kinds = self.nominal.joint, {one.kind for one in recordings}
+        effects = [
+            effect
+            for effect in joint.library
+            if effect not in joint.all_present
+            and not (effect.needs_muscle and joint.is_driven)
+            and (kinds != {'pressure'} or effect.acts_on_pressure())
+        ]
+        counts = {
+            'recording': len(recordings),
+            'sample': sum(one.t.size for one in recordings),
+            'effect': len(effects),
+        }
+        return ', '.join(f'{n} {name}{"" if n == 1 else "s"}' for name, n in counts.items())
+
     def identify(
         self,
         progress: Callable[[float, str], None] | None = None,
         warn: Callable[[str], None] | None = None,
+        time_left: Callable[[float, float], None] | None = None,
     ) -> Identification:
         """Return what :func:`pam_ros.identify` finds, with the muscles of this package in mind."""
         return identify(
@@ -64,6 +84,7 @@ class Inputs:
             uncertain=self.uncertain,
             warn=warn,
             muscles=package_muscles(),
+            time_left=time_left,
         )
 
 

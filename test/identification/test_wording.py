@@ -14,6 +14,7 @@ from pam_ros.identification.wording import (
     probability,
     scale_for,
     spoken,
+    time_span,
 )
 
 
@@ -50,6 +51,28 @@ def test_number_has_its_significant_digits(value, digits, text):
 )
 def test_interval_has_digits_that_tell_its_ends_apart(low, high, text):
     assert interval(low, high) == text
+
+
+@pytest.mark.parametrize(
+    ('low', 'high', 'text'),
+    [
+        (0.0, 0.0, 'less than a minute'),
+        (20.0, 60.0, 'less than a minute'),
+        (4.0, 70.0, 'up to 2 min'),
+        (23.0, 70.0, '25 s to 2 min'),
+        (60.0, 240.0, '1 to 4 min'),
+        (119.0, 121.0, 'about 2 min'),
+        (170.0, 190.0, '2 to 4 min'),
+        (650.0, 1870.0, '10 to 30 min'),
+        (650.0, 690.0, 'about 10 min'),
+        (3000.0, 7100.0, '50 to 120 min'),
+        (1800.0, 7300.0, '30 min to 2 h'),
+        (30.0, 7300.0, '30 s to 2 h'),
+        (9000.0, 90000.0, '2 to 25 h'),
+    ],
+)
+def test_a_time_span_has_few_digits(low, high, text):
+    assert time_span(low, high) == text
 
 
 def test_scales_keep_the_value():

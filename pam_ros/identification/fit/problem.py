@@ -63,7 +63,8 @@ class Problem:
     ``active`` are the effects that the kernel computes, and ``step`` is the longest step in s.
     Numbers of a load can be unknown only if ``joint``, which has the load, is given. Unknowns need
     finite priors. Residuals are those of the samples that the segments mark for fitting, n in all,
-    of the runs one after the other.
+    of the runs one after the other. on_run(steps) is called before each run with the number of its
+    time steps, from any thread; an exception that it raises ends the fit.
     """
 
     segments: tuple[Segment, ...]
@@ -73,6 +74,7 @@ class Problem:
     unknowns: tuple[Unknown, ...]
     step: float = 1e-3
     joint: Joint | None = None
+    on_run: Callable[[float], object] = lambda steps: None
 
     @property
     def prior(self) -> Array:
@@ -123,6 +125,7 @@ class Problem:
         found = []
         for k in range(len(self.segments)) if only is None else (only,):
             s = self.segments[k]
+            self.on_run(self._steps[k])
             q = self._row_of_run(k, shared, u).reshape(shape)
             change = self._change(q, u)
             if isinstance(s, FreeSegment):
@@ -258,7 +261,19 @@ class Problem:
         """Return dr/du (n, k) as one block for each run, of the unknowns that act in it."""
         return Slopes.of(self.by_run(jacobian), self._acting)
 
+    @property
+    def steps(self) -> float:
+        """The number of time steps of one simulation of all runs."""
+        return sum(self._steps)
+
     # Cached, since each of many simulations needs them -----------------------------------------
+
+    @cached_property
+    def _steps(self) -> list[float]:
+        """The number of time steps of each run."""
+        longest = [HELD_STEP if s.kind == 'held' else self.step for s in self.segments]
+        pairs = zip(self.segments, longest, strict=True)
+        return [max(s.t.size, float(s.t[-1] - s.t[0]) / step) for s, step in pairs]
 
     @cached_property
     def _given(self) -> list[dict[OfRig, float]]:

@@ -16,10 +16,14 @@ from pam_ros.identification.fit.solve import Solution, initial_solution, least_s
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Model, Setting, rms, simulate_on
 from pam_ros.identification.search.starts import without_idle
+from pam_ros.identification.work import Forecast
 
 Array = NDArray[np.float64]
 STEP = 1e-3  # s, longest step of the simulations of a rig that is not slow
 STEPS = 20  # of a slow rig, in the longest period that its fastest oscillation allows
+# Simulations of the last fits, which were counted as in :mod:`.forecast`: 57 to 115 with none or
+# one effect and 500 with two.
+LEAST, MOST = 60.0, 500.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,14 +45,24 @@ def fit_finally(search: Search) -> FinalFits:
     """Return the models of a search, fitted completely: by least squares of the free run."""
     setting = search.setting
     parts = tuple(sorted(setting.parts, key=lambda part: not _is_run(part)))
-    runs = [run_of(part.segment, part.used) for part in parts if _is_run(part)]
-    whole = setting.problem_of(runs, short_step(setting.coarse_period(LONGEST_PERIOD)))
+    whole = _whole(parts, setting)
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
     nominal = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
     retuned = _nearest(*_begun(search.retuned, whole, setting), setting)
     if not search.best.effects:
         return FinalFits(parts, nominal, retuned, retuned)
     return FinalFits(parts, nominal, retuned, _nearest(*_nearer(search, whole), setting))
+
+
+def forecast_of_final(setting: Setting) -> Forecast:
+    """Return the forecast of the last fits, and of the errors of all models that were tried."""
+    return Forecast(*(count * _whole(setting.parts, setting).steps for count in (LEAST, MOST)))
+
+
+def _whole(parts: Sequence[Part], setting: Setting) -> Problem:
+    """Return the problem of re-tuning to all samples of *parts* that a fit may use."""
+    runs = [run_of(part.segment, part.used) for part in parts if _is_run(part)]
+    return setting.problem_of(runs, short_step(setting.coarse_period(LONGEST_PERIOD)))
 
 
 def short_step(period: float) -> float:

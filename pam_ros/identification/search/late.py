@@ -20,10 +20,12 @@ from pam_ros.identification.fit.extend import memories
 from pam_ros.identification.fit.onset import EARLIER, index_of_onset
 from pam_ros.identification.fit.solve import converge, initial_solution
 from pam_ros.identification.fit.unknowns import onset_unknown
+from pam_ros.identification.search.forecast import of_search
 from pam_ros.identification.search.onset import OnsetEstimate, shares_after
-from pam_ros.identification.search.search import Progress, Search, find_effects
+from pam_ros.identification.search.search import Search, find_effects
 from pam_ros.identification.search.setting import Model, Setting, rms, transfer
 from pam_ros.identification.search.starts import without_idle
+from pam_ros.identification.work import Forecast
 from pam_ros.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -68,7 +70,7 @@ class Late:
         return replace(late, parts=without, transition=(start, end))
 
 
-def find_late_effects(late: Late, progress: Progress) -> Search:
+def find_late_effects(late: Late) -> Search:
     """Find the effects that begin late, at once or over some seconds, or act from the start.
 
     A model that lacks an effect from the start can also fail only in the middle, for example if
@@ -78,15 +80,17 @@ def find_late_effects(late: Late, progress: Progress) -> Search:
     """
     jump = late.setting_after(0.0)
     if jump is None:
-        return find_effects(late.setting, progress)
-    found = find_effects(jump, progress)
-    other = None if leaves_only_noise(found) else _developing(late, found, progress)
+        return find_effects(late.setting)
+    # Then the effects may develop, or act from the start.
+    with late.setting.work.part('', Forecast(0.0, 0.5 * of_search(jump).high)):
+        found = find_effects(jump)
+    other = None if leaves_only_noise(found) else _developing(late, found)
     if other is not None:
         return other
-    return found if begins_late(found) else find_effects(late.setting, progress)
+    return found if begins_late(found) else find_effects(late.setting)
 
 
-def _developing(late: Late, jump: Search, progress: Progress) -> Search | None:
+def _developing(late: Late, jump: Search) -> Search | None:
     """Return the search of effects that develop, None if those of *jump* or none do not.
 
     The best model has no effects if it is not known which ones develop.
@@ -94,7 +98,7 @@ def _developing(late: Late, jump: Search, progress: Progress) -> Search | None:
     long, short = ([*filter(None, map(late.setting_after, times))] for times in (LONG, SHORT))
     best, is_same = jump, False
     for setting in long or short[:1]:
-        after = find_effects(setting, progress)
+        after = find_effects(setting)
         is_same = {*after.best.effects} == {*jump.best.effects}
         if not (begins_late(after) and is_no_worse_on_the_same(after, best)):
             break

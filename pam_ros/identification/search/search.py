@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A loop over moves from model to model, until no move is accepted."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -22,6 +22,12 @@ from pam_ros.identification.search.compare import (
     with_errors,
     within_tolerance,
 )
+from pam_ros.identification.search.forecast import (
+    begin_search,
+    of_confirming,
+    of_rounds,
+    of_search,
+)
 from pam_ros.identification.search.moves import (
     absent_effects,
     remove_effect,
@@ -39,7 +45,6 @@ from pam_ros.identification.search.setting import Model, Setting
 
 Array = NDArray[np.float64]
 AT_ONCE = 2  # models whose errors are computed at once
-Progress = Callable[[float, str], None]  # share of the work that is done, and the next step
 
 
 @dataclass(eq=False)
@@ -47,7 +52,8 @@ class Search:
     """A search: the re-tuned model, the best one, and every model that it evaluated.
 
     ``kept`` are the effects that another signal shows: they are in the best model also if this
-    search does not need them.
+    search does not need them. ``rounds`` are the numbers of time steps that the rounds of moves
+    have simulated.
     """
 
     setting: Setting
@@ -55,6 +61,7 @@ class Search:
     best: Model
     evaluated: list[Model] = field(default_factory=list)
     kept: tuple[str, ...] = ()
+    rounds: list[float] = field(default_factory=list)
 
     def evaluate(self, models: Iterable[Model]) -> list[Model]:
         """Add fitted *models* to those that were evaluated, and return them."""
@@ -68,9 +75,9 @@ class Search:
         return min((m for m in same if m.solution.problem.step == step), key=lambda m: m.score)
 
 
-def without_effects(setting: Setting, progress: Progress = lambda share, text: None) -> Search:
+def without_effects(setting: Setting) -> Search:
     """Return a search that has only re-tuned the nominal model."""
-    progress(0.0, 're-tuning the parameters')
+    setting.work.step('re-tuning the parameters', of_search(setting))
     problem = setting.problem
     u = np.zeros(len(problem.unknowns))
     start = initial_solution(problem, u, pool=setting.pool)
@@ -79,12 +86,12 @@ def without_effects(setting: Setting, progress: Progress = lambda share, text: N
     return Search(setting, retuned, retuned, [retuned])
 
 
-def find_effects(setting: Setting, progress: Progress = lambda share, text: None) -> Search:
-    """Find the effects that the nominal model lacks; *progress* is called at each step."""
-    return confirmed(improved(without_effects(setting, progress), progress), progress)
+def find_effects(setting: Setting) -> Search:
+    """Find the effects that the nominal model lacks."""
+    return confirmed(improved(without_effects(setting)))
 
 
-def find_effects_from(search: Search, model: Model, progress: Progress) -> Search:
+def find_effects_from(search: Search, model: Model) -> Search:
     """Find the effects that the nominal model lacks, from a *model* with some of them on.
 
     *search* has only re-tuned the nominal model. Effects that *model* does not need are removed,
@@ -97,27 +104,32 @@ def find_effects_from(search: Search, model: Model, progress: Progress) -> Searc
         search.best = free_parameters(less, search)
     else:
         search.kept = ()
-    return confirmed(improved(search, progress), progress)
+    return confirmed(improved(search))
 
 
-def improved(found: Search, progress: Progress) -> Search:
+def improved(found: Search) -> Search:
     """Return the search after moves from its best model, until none is accepted."""
     setting, budget = found.setting, found.setting.budget
+    begin_search(found.retuned, setting)
     for n in range(budget.rounds):
-        progress(0.05 + 0.75 * n / budget.rounds, f'trying effects, round {n + 1}')
         if len(found.best.effects) >= budget.effects or is_complete(found.best, setting):
             break
+        setting.work.step(f'trying effects, round {n + 1}', of_rounds(setting, found.rounds))
+        before = setting.work.done
         better = _add_effect(found) or exchange_effect(found)
+        found.rounds.append(setting.work.done - before)
         if better is None:
             break
         found.best = better
     return found
 
 
-def confirmed(found: Search, progress: Progress) -> Search:
+def confirmed(found: Search) -> Search:
     """Return the search with its best model confirmed, see :func:`confirm`."""
-    progress(0.8, 'confirming the effects with finer steps')
-    found.best = confirm(found)
+    if found.best.effects:
+        rest = of_confirming(found.rounds)
+        found.setting.work.step('confirming the effects with finer steps', rest)
+        found.best = confirm(found)
     return found
 
 

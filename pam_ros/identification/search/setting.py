@@ -45,6 +45,7 @@ from pam_ros.identification.fit.unknowns import (
     time_unknowns,
 )
 from pam_ros.identification.search.criteria import Budget, Criteria
+from pam_ros.identification.work import Work
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
@@ -121,7 +122,10 @@ class Model:
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """The nominal model, the parts of the recordings, the criteria and the limits of computing."""
+    """The nominal model, the parts of the recordings, the criteria and the limits of computing.
+
+    ``work`` counts the simulations.
+    """
 
     joint: Joint
     parts: Sequence[Part]
@@ -133,6 +137,7 @@ class Setting:
     onset: float | None = None  # s, near which effects begin; None: at the start
     transition: tuple[float, float] | None = None  # s, left out, in which they develop
     is_behind_chambers: bool = False  # whether the input are chamber pressures, commands known
+    work: Work = field(default_factory=Work)
 
     @cached_property
     def noise(self) -> float:
@@ -259,6 +264,7 @@ class Setting:
             tuple(map(proper, unknowns)),
             step,
             self.joint,
+            self.work.simulated,
         )
 
     @property

@@ -27,10 +27,6 @@ ONSET = 17.0
 SHARES = CRITERIA.fit, CRITERIA.choose
 
 
-def no_progress(share, text):
-    """Take the progress of a search."""
-
-
 @pytest.fixture(scope='module')
 def late_of(pool):
     """Return a function that estimates the onset in a recording."""
@@ -71,7 +67,7 @@ def test_enough_must_come_after_a_transition(pool, transition, is_possible):
 )
 def test_what_begins_is_named_with_its_moment(late_of, one):
     recording = bench_truth.late(one, ONSET)
-    found = find_late_effects(late_of(recording), no_progress)
+    found = find_late_effects(late_of(recording))
     assert found.setting.transition is None
     assert found.best.effects == (one.kind,)
     k = index_of_onset(found.best.solution)
@@ -114,7 +110,7 @@ def _with_payload(setting):
 )
 def test_what_develops_is_named_and_no_effect_that_jumps(late_of, one):
     recording = bench_truth.late(one, ONSET, duration=60.0, within=4.0)
-    found = find_late_effects(late_of(recording), no_progress)
+    found = find_late_effects(late_of(recording))
     assert found.best.effects == (one.kind,)
     start, end = found.setting.transition
     # A friction is visible only when the load moves.
@@ -130,7 +126,7 @@ def test_what_develops_until_the_end_is_not_named(late_of):
     """Too little of the recording has the full strength."""
     loss = effect('pressure_offset', regulator_pa=0.0, regulator_gain=0.91)
     recording = bench_truth.late(loss, 26.0, within=8.0)
-    found = find_late_effects(late_of(recording), no_progress)
+    found = find_late_effects(late_of(recording))
     assert found.best.effects == ()
 
 
@@ -148,6 +144,6 @@ def test_an_end_stop_that_is_met_late_was_there_from_the_start(late_of):
     assert whole.t[np.argmax(highest > stop)] > 8.0
     recording = bench_truth.free(effect('end_stop', stop_m=float(stop)), duration=40.0)
     late = late_of(recording)
-    found = find_late_effects(late, no_progress)
+    found = find_late_effects(late)
     assert found.best.effects == ('end_stop',)
     assert found.setting is late.setting
