@@ -6,8 +6,9 @@ It reports the error of the nominal model, the error with re-tuned parameters, w
 effect is missing, and the error with it. Recordings are rosbag2 folders or CSV files whose
 column names contain the unit (t_s, pressure_command_kPa, position_mm, force_N, ...). The folder
 --out will contain report.html, report.json, identified.yaml (a parameter file for pam_sim and
-pam_control) and residual.csv. Exit code 0 for any verdict, 2 for invalid input. Runs
-without ROS.
+pam_control) and residual.csv. Exit code 0 for any verdict, 2 for invalid input. Ctrl-C ends
+the search and reports the best model so far, marked as incomplete (exit code 130); a second one
+ends the program. Runs without ROS.
 """
 
 import argparse
@@ -16,7 +17,7 @@ import signal
 import sys
 from pathlib import Path
 from types import FrameType
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from pam_ros.cli.help_text import help_text
 from pam_ros.cli.pool_options import add_pool_options, pool_of
@@ -24,9 +25,15 @@ from pam_ros.cli.progress_bar import ProgressBar
 from pam_ros.cli.sentence_parser import BAD_INPUT, SentenceParser
 from pam_ros.cli.set_order import values_of_files
 from pam_ros.errors import PamError, printable, shown
+from pam_ros.processes.early_end import EarlyEnd
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.processes.prompt_end import end_promptly
 from pam_ros.version import VERSION_HELP, VERSION_LINE
+
+if TYPE_CHECKING:  # these import numba, which the help does not need
+    from pam_ros.identification.identification import Identification
+    from pam_ros.report.provenance import Provenance
+    from pam_ros.settings.inputs import Inputs
 
 INTERRUPTED, TERMINATED = 130, 143
 STOPPED = 'pam_identify: interrupted, nothing was written'
@@ -139,14 +146,17 @@ def _add_batch_options(made: argparse.ArgumentParser) -> None:
     add_pool_options(made, 'rigs', 'with --each: ')
 
 
-def run(given: argparse.Namespace, command: str) -> str:
-    """Run the identification of the command line, write the report, return a summary."""
+def run(given: argparse.Namespace, command: str) -> int:
+    """Run the identification of the command line, write the report, and print a summary.
+
+    The first Ctrl-C ends the search as soon as it has a model, and this model is reported. Returns
+    the exit code.
+    """
     from pam_ros.compiled import HAVE_NUMBA
     from pam_ros.identification.summary import details, last_line
-    from pam_ros.identification.workers import thread_count
     from pam_ros.recording.warning_list import warning_list
     from pam_ros.report.provenance import provenance
-    from pam_ros.report.write import check_folder, write_report
+    from pam_ros.report.write import check_folder
     from pam_ros.settings.inputs import read_inputs
 
     check_folder(given.out)
@@ -158,18 +168,39 @@ def run(given: argparse.Namespace, command: str) -> str:
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
     source = provenance(inputs, given.set, command)
+    stop = EarlyEnd()
+    answer = _reported(given.out, inputs, source, stop)
+    page = given.out / 'report.html'
+    texts = [answer.summary(), *([details(answer)] if given.verbose else [])]
+    lines = '\n\n'.join([*texts, f'{last_line(answer)}; see {page}']).splitlines()
+    print('\n'.join(map(printable, lines)))
+    if stop.is_requested:
+        which = 'the complete report' if answer.is_complete else 'an incomplete report'
+        text = f'pam_identify: interrupted, {which} was written to {page}'
+        print(shown(text), file=sys.stderr)
+    return stop.code
+
+
+def _reported(
+    folder: Path, inputs: 'Inputs', source: 'Provenance', stop: EarlyEnd
+) -> 'Identification':
+    """Identify what is in *inputs*, until signals request the *stop*, and write the report."""
+    from pam_ros.identification.workers import thread_count
+    from pam_ros.report.write import write_report
+
     threads = thread_count()
-    progress = ProgressBar(f'{threads} core{"" if threads == 1 else "s"} ({inputs.size})')
+    size = f'{threads} core{"" if threads == 1 else "s"} ({inputs.size})'
+    progress = ProgressBar(size, lambda: stop.is_requested)
     try:
-        with end_promptly(sentence=STOPPED):  # kernels are compiled here
-            answer = inputs.identify(progress, progress.say, progress.time_left)
-        progress(1.0, 'writing the report')
-        write_report(given.out, answer, source)
+        with stop.on_signals():
+            # Kernels are compiled here, before there is a result.
+            with end_promptly(sentence=STOPPED, leaves_first=lambda: stop.has_result):
+                answer = inputs.identify(progress, progress.say, progress.time_left, stop)
+            progress(1.0, 'writing the report')
+            write_report(folder, answer, source)
     finally:
         progress.close()
-    end = f'{last_line(answer)}; see {given.out / "report.html"}'
-    texts = [answer.summary(), *([details(answer)] if given.verbose else []), end]
-    return '\n'.join(map(printable, '\n\n'.join(texts).splitlines()))
+    return answer
 
 
 def run_each(made: argparse.ArgumentParser, given: argparse.Namespace, command: str) -> int:
@@ -195,7 +226,7 @@ def main() -> None:
         for option in ('jobs', 'dask', 'resume'):
             if getattr(given, option):
                 made.error(f'--{option} is for --each')
-        print(run(given, command))
+        sys.exit(run(given, command))
     except PamError as error:
         print(f'pam_identify: {error}', file=sys.stderr)
         sys.exit(BAD_INPUT)

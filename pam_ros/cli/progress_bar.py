@@ -3,23 +3,28 @@
 """The progress of an identification on standard error, with the time that is left."""
 
 import sys
+from collections.abc import Callable
 
 from pam_ros.errors import shown
 from pam_ros.identification.wording import time_span
+
+INTERRUPTED = (
+    'interrupted: the report of the best model so far follows, a second Ctrl-C ends at once'
+)
 
 
 class ProgressBar:
     """Shows the current step and the time left: a bar on a terminal, else a line for each step.
 
     When the time is known for the first time, a line states it, followed by the *size* of the
-    work.
+    work. As soon as *is_interrupted* returns true, another one states what follows.
     """
 
-    def __init__(self, size: str) -> None:
+    def __init__(self, size: str, is_interrupted: Callable[[], bool]) -> None:
         """Start at 0 %."""
         from tqdm import tqdm
 
-        self._size = size
+        self._size, self._is_interrupted, self._is_noted = size, is_interrupted, False
         self._text = self._left = ''
         self._is_shown = sys.stderr.isatty()
         self._bar = tqdm(
@@ -31,6 +36,9 @@ class ProgressBar:
 
     def __call__(self, fraction: float, text: str) -> None:
         """Show the progress (0 to 1) and the current step."""
+        if self._is_interrupted() and not self._is_noted:
+            self._is_noted = True
+            self.say(INTERRUPTED)
         line = f'{text}, {self._left} left' if self._left and fraction < 1.0 else text
         if text != self._text and not self._is_shown:
             print(f'{100.0 * fraction:3.0f} %  {line}', file=sys.stderr, flush=True)

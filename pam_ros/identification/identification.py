@@ -34,6 +34,7 @@ class Identification(Conclusion):
     ``test_recordings`` were not; ``segments`` and ``test`` are their gapless stretches. ``since``
     is the time in s at which the effects begin to act, None if they act from the start.
     ``uncertain`` are the given standard deviations of nominal values, by parameter.
+    ``is_complete`` is false if the search was stopped, and the result is that of its best model.
     :func:`pam_ros.save_report` and :func:`pam_ros.save_parameters` write the result to files.
     """
 

@@ -59,7 +59,7 @@ from pam_ros.identification.verdict import (
     sentence,
     verdict,
 )
-from pam_ros.identification.work import Progress, TimeLeft, Work
+from pam_ros.identification.work import Progress, Stop, TimeLeft, Work
 from pam_ros.identification.workers import Workers
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.inputs import driving, refuse_copies, refuse_idle
@@ -93,6 +93,7 @@ def identify(
     warn: Callable[[str], object] | None = None,
     muscles: Mapping[str, Muscle] | None = None,
     time_left: TimeLeft | None = None,
+    stop: Stop | None = None,
 ) -> Identification:
     """Identify the effects of the model's library that *recordings* show beyond *model*.
 
@@ -101,7 +102,9 @@ def identify(
     see :mod:`pam_ros.identification.data.parts`. progress(share, text) is called with the share of
     the work that is done and a text about the next step, and time_left(low, high) before it with
     the s that the rest takes at least and at most, as soon as they are known. warn(text) is called
-    with each warning that is known before the fits, which may take minutes.
+    with each warning that is known before the fits, which may take minutes. stop() is asked often
+    and from several threads, from the time on when there is a re-tuned model: if it returns true,
+    the search ends, and the result is that of its best model so far (``is_complete`` is false).
 
     *uncertain* are standard deviations of nominal values by the names of parameters, such as
     ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Numbers
@@ -116,7 +119,7 @@ def identify(
     """
     uncertain = {} if uncertain is None else uncertain
     recordings, test = _checked(model, recordings, test, uncertain)
-    work = Work(progress, time_left)
+    work = Work(progress, time_left, stop)
     # With test recordings, no part of the others is needed to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
     with Workers(work.update) as pool:
@@ -287,6 +290,7 @@ def _conclusion(
         uncertain={name: str(given) for name, given in setting.uncertain.items()},
         doubt=outcome.doubt.reason if outcome.doubt else '',
         uses_pressures=outcome.path is not None,
+        is_complete=outcome.is_complete,
     )
 
 

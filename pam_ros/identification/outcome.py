@@ -58,9 +58,20 @@ class Outcome:
     note: str = ''
 
     @property
+    def is_complete(self) -> bool:
+        """Whether the search and the checks after it have ended by themselves."""
+        return not self.search.setting.work.is_stopped
+
+    @property
     def remedy(self) -> NextExperiment | None:
         """What would help instead of another recording, None if nothing else would."""
-        return NextExperiment(self.doubt.remedy) if self.doubt else None
+        if self.doubt:
+            return NextExperiment(self.doubt.remedy)
+        if not self.is_complete:
+            return NextExperiment(
+                'Identify again without stopping the search, before you record anything else.'
+            )
+        return None
 
     def doubting(self, doubt: Doubt) -> 'Outcome':
         """Return this outcome without effects, since there is a *doubt*."""
@@ -94,14 +105,18 @@ def search_recordings(
             return _searched(own, corrected)
 
     first = _searched(setting, given)
-    # Before the clocks, since another load can seem to be another clock, and takes longer.
-    doubt = different_loads(first.search, given.recordings)
-    if doubt:
-        return first.doubting(doubt)
-    outcome, recordings, sentences = on_one_clock(first, given.recordings, given.shares, again)
-    test, others = tests_on_one_clock(outcome.search, given.test)
-    given = replace(given, recordings=tuple(recordings), test=tuple(test))
-    return replace(outcome, given=given, clocks=(*sentences, *others))
+
+    def checked() -> Outcome:
+        # Before the clocks, since another load can seem to be another clock, and takes longer.
+        doubt = different_loads(first.search, given.recordings)
+        if doubt:
+            return first.doubting(doubt)
+        outcome, recordings, sentences = on_one_clock(first, given.recordings, given.shares, again)
+        test, others = tests_on_one_clock(outcome.search, given.test)
+        own = replace(given, recordings=tuple(recordings), test=tuple(test))
+        return replace(outcome, given=own, clocks=(*sentences, *others))
+
+    return setting.work.attempt(checked) or first
 
 
 def _searched(setting: Setting, given: Given) -> Outcome:

@@ -139,7 +139,9 @@ class Conclusion:
     None if they appear at once, or are not known. ``uncertain`` are the given standard deviations
     of nominal values, by parameter. ``doubt`` is the reason why the recordings contradict what was
     stated about them, such as a unit, '' if they do not. ``uses_pressures`` is whether measured
-    pressures of a load that moves have shown effects of the pressure path.
+    pressures of a load that moves have shown effects of the pressure path. ``is_complete`` is
+    whether the search has ended by itself; if it was stopped, the last model is the best one that
+    it had accepted.
     """
 
     verdict: Verdict
@@ -160,6 +162,7 @@ class Conclusion:
     uncertain: Mapping[str, str]
     doubt: str
     uses_pressures: bool
+    is_complete: bool
 
     @property
     def regressors(self) -> str:

@@ -29,7 +29,8 @@ def last_line(result: Conclusion) -> str:
         more = listed([spelled(name) for name in result.added])
         errors += f', {number(scale.factor * augmented)} {scale.unit} with {more}'
     floor = f'{number(scale.factor * result.noise.sigma)} {scale.unit}'
-    return f'{result.verdict}{found}: held-out error {errors}; noise {floor}'
+    mark = '' if result.is_complete else 'incomplete, the search was stopped: '
+    return f'{mark}{result.verdict}{found}: held-out error {errors}; noise {floor}'
 
 
 def summary(

@@ -22,6 +22,7 @@ from pam_ros.rig.joint import Joint
 
 FILE = 'FILE'  # in a command: the parameter file of the joint, without which it is one muscle
 REMAINDER = 3.0  # noise floors; a larger error is more than the inexact form of the right effects
+INCOMPLETE = 'Incomplete: the search was stopped before it ended, and the answer may change.'
 WEATHER = 6e3  # Pa; change of the air pressure by weather and up to 500 m of altitude
 
 
@@ -109,8 +110,14 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
     """Return the verdict of *answer* with its numbers, as one paragraph of plain sentences.
 
     *lacking* is what :func:`too_little` returned, *explaining* are the effects with which the
-    model explains a recording up to a moment; none for the re-tuned model.
+    model explains a recording up to a moment; none for the re-tuned model. If the search was
+    stopped, the first sentence says so.
     """
+    text = _sentence(answer, lacking, explaining)
+    return text if answer.is_complete else f'{INCOMPLETE} {text}'
+
+
+def _sentence(answer: Conclusion, lacking: str, explaining: Sequence[str]) -> str:
     if answer.verdict == Verdict.INSUFFICIENT_DATA:
         return f'The data cannot support a verdict: {lacking}.'
     nominal, retuned, augmented = (_size(s.held_error, answer.unit) for s in answer.stages)
@@ -159,9 +166,10 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
         )
     added = f' with {" and ".join(map(spelled, answer.added))}' if answer.added else ''
     before = f' ({retuned} re-tuned)' if added else ''
+    tried = 'no effect of the library' if answer.is_complete else 'none of the effects so far'
     return (
-        'Something is missing that no effect of the library explains: the error on held-out data '
-        f'is {augmented}{added}{before}, and {100 * answer.structure.ceiling:.0f} % of the '
+        f'Something is missing that {tried} explains: the error on held-out data is '
+        f'{augmented}{added}{before}, and {100 * answer.structure.ceiling:.0f} % of the '
         f'variance of the residual can be predicted from {answer.regressors}.'
         f'{since} {floor}'
     )

@@ -12,10 +12,12 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Lock
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 Progress = Callable[[float, str], object]  # share of the work that is done, and the next step
 TimeLeft = Callable[[float, float], object]  # s that the rest takes at least, and at most
+Stop = Callable[[], bool]
+T = TypeVar('T')
 # s in which the rate of simulations is replaced by that of the last ones: models with more effects
 # are slower.
 MEMORY = 20.0
@@ -44,23 +46,32 @@ class Forecast(NamedTuple):
 NOTHING = Forecast(0.0, 0.0)
 
 
+class _StoppedError(Exception):
+    """The user has asked for the end of a search: it ends the fits that are running."""
+
+
 class Work:
     """What has been simulated, which step is running, and what is expected to follow.
 
     progress(share, text) is called with each step and about once a second within it, and before it
     time_left(low, high) with the s that the rest will take, as soon as this is known. The *clock*
     gives times in s.
+
+    A search consists of attempts to improve its model. If *stop* returns true during one of them,
+    at any simulation, this attempt is given up, and no other one is made: ``is_stopped``.
     """
 
     def __init__(
         self,
         progress: Progress | None = None,
         time_left: TimeLeft | None = None,
+        stop: Stop | None = None,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         """Begin with nothing done and nothing known of what follows."""
         self._progress: Progress = progress or (lambda share, text: None)
         self._time_left: TimeLeft = time_left or (lambda low, high: None)
+        self._stop: Stop = stop or (lambda: False)
         self._clock = clock
         self._lock = Lock()
         self._seen = self._reported = clock()
@@ -71,9 +82,16 @@ class Work:
         self._before = (0.0, 0.0)
         self._forecast, self._done_before = NOTHING, 0.0
         self._parts: list[tuple[str, Forecast]] = []
+        self._attempts = 0  # that are running, one within the other
+        self.is_stopped = False
 
     def simulated(self, steps: float) -> None:
-        """Count a simulation with so many time steps; any thread may call this."""
+        """Count a simulation with so many time steps; any thread may call this.
+
+        Raises an exception that :meth:`attempt` handles if the attempt must end.
+        """
+        if self._attempts and self._stop():
+            raise _StoppedError
         with self._lock:
             self._done += steps
             self._note_time()
@@ -83,11 +101,30 @@ class Work:
         """The number of time steps that were simulated so far."""
         return self._done
 
+    def attempt(self, move: Callable[[], T]) -> T | None:
+        """Return move(), None if it is stopped or if an earlier attempt was.
+
+        Nothing of the attempt continues in other threads, see :class:`.workers.Workers`.
+        """
+        if self.is_stopped:
+            return None
+        self._attempts += 1
+        try:
+            return move()
+        except _StoppedError:
+            self.is_stopped = True
+            self.step('the search was stopped')
+            return None
+        finally:
+            self._attempts -= 1
+
     def begin_search(self, rate: float) -> None:
         """State the *rate* in time steps per s that simulations of a search will probably have.
 
-        It is replaced by the measured one little by little.
+        It is replaced by the measured one little by little. *stop* is asked here for the first
+        time, since there is now a model to report.
         """
+        self._stop()
         with self._lock:
             self._note_time()
             self._rate, self._before = rate, (self._elapsed, self._done)

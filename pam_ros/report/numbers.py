@@ -20,7 +20,7 @@ from pam_ros.report.runs import STAGES, Run, pressure_runs_of, sizes
 
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
-SCHEMA_VERSION = '2.11'
+SCHEMA_VERSION = '2.12'
 
 Table = dict[str, Any]
 
@@ -30,6 +30,7 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
     return {
         'schema_version': SCHEMA_VERSION,
         'verdict': str(result.verdict),
+        'complete': result.is_complete,
         'sentence': result.sentence,
         'effects': [_effect(finding) for finding in result.effects],
         'since': None if result.since is None else asdict(result.since),

@@ -72,7 +72,7 @@ def page(
     }
     return environment.get_template('report.html.j2').render(
         result=result,
-        verdict=result.verdict.heading,
+        verdict=f'{"" if result.is_complete else "Incomplete: "}{result.verdict.heading}',
         remainder=remainder_of(result, scale),
         not_excluded=not_excluded(result, scale),
         signatures=[signature[effect_of(finding.name)] for finding in result.effects],
@@ -151,14 +151,21 @@ def not_excluded(result: Identification, scale: Scale) -> list[str]:
                 f'Instead of {name} it could be {" or ".join(others)}: these data do not '
                 'distinguish them.'
             )
-        else:
+        elif result.is_complete:
             sentences += _nearest(finding.name, result)
         if finding.or_constants:
             sentences.append(
                 f'Instead of {name}, constants a1 to a6 far from the nominal ones explain these '
                 'data as well.'
             )
-    if result.verdict == Verdict.NO_MISSING_EFFECT:
+    if not result.is_complete:
+        sentences.append(
+            'The search was stopped before it ended: effects that it had not tried could be '
+            'missing as well, or instead of those that are named. What it does at its end may '
+            'not have been done: to confirm the effects with finer steps, and to check the loads '
+            'and the clocks of the recordings.'
+        )
+    elif result.verdict == Verdict.NO_MISSING_EFFECT:
         sentences.append(f'Effects that stay below the noise floor of {floor} could be present.')
     elif result.verdict == Verdict.PARAMETERS_WRONG:
         sentences.append(

@@ -51,7 +51,8 @@ def remainder_of(result: Identification, scale: Scale) -> Remainder:
             True,
         )
     if result.verdict == Verdict.UNEXPLAINED_STRUCTURE:
-        return Remainder(f'{start}, and no effect of the library explains it.', True)
+        tried = 'no effect of the library' if result.is_complete else 'none of the effects so far'
+        return Remainder(f'{start}, and {tried} explains it.', True)
     if floors <= CRITERIA.complete:
         return Remainder(f'{start}: only the noise of the sensor is left.', False)
     if isfinite(floors):

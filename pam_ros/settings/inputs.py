@@ -74,6 +74,7 @@ class Inputs:
         progress: Callable[[float, str], None] | None = None,
         warn: Callable[[str], None] | None = None,
         time_left: Callable[[float, float], None] | None = None,
+        stop: Callable[[], bool] | None = None,
     ) -> Identification:
         """Return what :func:`pam_ros.identify` finds, with the muscles of this package in mind."""
         return identify(
@@ -85,6 +86,7 @@ class Inputs:
             warn=warn,
             muscles=package_muscles(),
             time_left=time_left,
+            stop=stop,
         )
 
 

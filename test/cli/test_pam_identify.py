@@ -83,6 +83,7 @@ def test_friction_is_found_and_the_model_corrected(found):
     assert code == 0
     report = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
     assert report['verdict'] == 'effect_found'
+    assert report['complete'] is True
     assert [effect['name'] for effect in report['effects']] == ['coulomb_friction']
     level = report['effects'][0]['parameters']['level']
     assert level['value'] == pytest.approx(FRICTION, rel=0.05)
@@ -255,21 +256,58 @@ def test_a_folder_that_cannot_be_made_is_refused_before_the_recordings_are_read(
     assert capsys.readouterr().err.startswith('pam_identify: /proc/report cannot be made: ')
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
+ENDS = pytest.mark.parametrize(
     ('kind', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)], ids=['Ctrl-C', 'SIGTERM']
 )
-def test_interrupted_it_leaves_nothing(bench, kind, code):
-    before = left(bench)
-    process = start(bench, 'friction.csv', *DECLARED, '--out', 'deep/half')
+
+
+def interrupted(folder, kind, steps, *arguments):
+    """Send a signal at each of these *steps*, and return (exit code, stdout, stderr lines)."""
+    process = start(folder, 'friction.csv', *DECLARED, *arguments)
+    lines = []
     for line in process.stderr:
-        if 'trying effects' in line:
+        lines.append(line.rstrip())
+        if steps and steps[0] in line:
             os.killpg(process.pid, kind)
-            break
-    _, errors = process.communicate(timeout=600)
-    assert process.returncode == code
-    assert 'Traceback' not in errors
+            steps = steps[1:]
+    out, _ = process.communicate(timeout=60)
+    assert steps == []
+    return process.returncode, out, lines
+
+
+@pytest.mark.slow
+@ENDS
+@pytest.mark.parametrize(
+    'steps',
+    [['re-tuning'], ['trying effects', 'interrupted: ']],
+    ids=['before there is a model', 'twice'],
+)
+def test_interrupted_it_leaves_nothing(bench, kind, code, steps):
+    before = left(bench)
+    given, _, lines = interrupted(bench, kind, steps, '--out', 'deep/half')
+    assert given == code
+    assert not any('Traceback' in line for line in lines)
     assert left(bench) == before
+
+
+@pytest.mark.slow
+@ENDS
+def test_interrupted_once_it_writes_the_best_model_so_far(bench, tmp_path, kind, code):
+    out = tmp_path / 'half'
+    given, printed, lines = interrupted(bench, kind, ['trying effects'], '--out', out)
+    assert given == code
+    page = out / 'report.html'
+    assert lines[-1] == f'pam_identify: interrupted, an incomplete report was written to {page}'
+    assert printed.splitlines()[0].startswith('Incomplete: the search was stopped')
+    assert printed.splitlines()[-1].startswith('incomplete, the search was stopped: ')
+    assert sorted(p.name for p in out.iterdir()) == sorted(FILES)
+    report = json.loads((out / 'report.json').read_text(encoding='utf-8'))
+    assert report['complete'] is False
+    assert report['effects'] == []
+    assert 'id="incomplete"' in page.read_text(encoding='utf-8')
+    model = (out / 'identified.yaml').read_text(encoding='utf-8')
+    assert '# incomplete, the search was stopped: ' in model
+    nominal_joint(out / 'identified.yaml')
 
 
 @pytest.mark.slow

@@ -30,7 +30,7 @@ def show(bar):
 
 def test_without_a_terminal_there_is_a_line_for_each_step(monkeypatch):
     monkeypatch.setattr(sys, 'stderr', io.StringIO())
-    show(ProgressBar(SIZE))
+    show(ProgressBar(SIZE, lambda: False))
     assert sys.stderr.getvalue().splitlines() == [
         '  0 %  re-tuning the parameters',
         f'1 to 4 min on {SIZE}',
@@ -42,10 +42,21 @@ def test_without_a_terminal_there_is_a_line_for_each_step(monkeypatch):
 
 def test_on_a_terminal_the_bar_has_the_time_that_is_left_now(monkeypatch):
     monkeypatch.setattr(sys, 'stderr', Terminal())
-    bar = ProgressBar(SIZE)
-    show(bar)
+    show(ProgressBar(SIZE, lambda: False))
     shown = [line.strip() for line in sys.stderr.getvalue().replace('\n', '\r').split('\r')]
     assert f'1 to 4 min on {SIZE}' in shown
     steps = [line.split('| ')[-1] for line in shown if '|' in line]
     assert 'trying effects, round 1, 1 to 4 min left' in steps
     assert 'trying effects, round 1, 10 s to 3 min left' in steps
+
+
+def test_after_an_interrupt_a_line_states_once_what_follows(monkeypatch):
+    monkeypatch.setattr(sys, 'stderr', io.StringIO())
+    signals = []
+    bar = ProgressBar(SIZE, lambda: bool(signals))
+    for text in ('first', 'second', 'third', 'fourth'):
+        bar(0.5, text)
+        signals += ['SIGINT'] * (text == 'second')
+    note = 'interrupted: the report of the best model so far follows, a second Ctrl-C ends at once'
+    steps = [f' 50 %  {text}' for text in ('first', 'second', 'third', 'fourth')]
+    assert sys.stderr.getvalue().splitlines() == [*steps[:2], note, *steps[2:]]

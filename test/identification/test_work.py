@@ -129,3 +129,50 @@ def test_a_program_that_was_stopped_for_a_day_has_not_become_slower(work, clock)
         simulate(work, clock, 1.0, 50.0)
         after, _ = work.left()
     assert after == pytest.approx(before - 50.0, rel=0.05)
+
+
+# A search that is stopped ------------------------------------------------------------------------
+
+
+def test_an_attempt_that_is_stopped_has_no_result_and_no_other_one_begins():
+    """Simulations that belong to no attempt go on: the best model so far needs them."""
+    asked = []
+    work = Work(stop=lambda: asked.append(1) or len(asked) > 2)
+
+    def simulated():
+        work.simulated(1.0)
+        return 'done'
+
+    work.simulated(1.0)
+    assert asked == []
+    assert [work.attempt(simulated) for _ in range(4)] == ['done', 'done', None, None]
+    assert len(asked) == 3
+    assert work.is_stopped
+    work.simulated(1.0)
+
+
+def test_an_attempt_within_another_one_ends_both():
+    is_requested = []
+    work = Work(stop=lambda: bool(is_requested))
+
+    def outer():
+        is_requested.append(True)
+        inner = work.attempt(lambda: work.simulated(1.0) or 'inner')
+        work.simulated(1.0)
+        return inner
+
+    assert work.attempt(outer) is None
+    assert work.is_stopped
+
+
+def test_other_errors_pass_through_an_attempt():
+    work = Work()
+    with pytest.raises(ZeroDivisionError):
+        work.attempt(lambda: 1 / 0)
+    assert not work.is_stopped
+
+
+def test_the_end_that_is_requested_when_the_search_has_ended_changes_nothing():
+    work = Work(stop=lambda: True)
+    assert work.attempt(lambda: 'done without a simulation') == 'done without a simulation'
+    assert not work.is_stopped

@@ -257,3 +257,19 @@ def test_contents_lead_to_every_section(friction_page):
 def test_an_effect_has_its_trace_and_leads_to_the_plots_that_show_it(friction_page):
     trace = next(effect.signature for effect in EFFECTS if effect.name == 'coulomb_friction')
     assert f'Its trace: {trace}; see <a href="#shape">' in friction_page
+
+
+def test_a_search_that_was_stopped_is_marked_at_the_top_and_claims_no_more(friction):
+    result, source, runs = friction
+    stopped = replace(result, is_complete=False)
+    html = rendered((stopped, source, runs))
+    text = ' '.join(' '.join(outline(html).text).split())
+    assert '<title>Incomplete: Effect found' in html
+    mark = html.index('<p class="remainder warn" id="incomplete">The search was stopped')
+    assert html.index('id="verdict"') < mark < html.index('id="remainder"')
+    open_ = text[text.index('What could not be excluded.') :]
+    assert open_.split('. ')[2].startswith('The search was stopped before it ended: effects that')
+    assert 'identify again before you rely on this model' in text
+    whole = rendered(friction)
+    assert 'id="incomplete"' not in whole
+    assert 'Incomplete' not in whole

@@ -167,6 +167,7 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
         uncertain={'mass': '2%'},
         doubt='',
         uses_pressures=False,
+        is_complete=True,
         sentence='The configured model lacks something.' if findings else 'Nothing is missing.',
         next_experiment='slow triangles with minor loops: the force reverses within micrometres',
         next_command="pam_excite --ros-args -p segments:='[slow_triangle, fast_triangle]'",

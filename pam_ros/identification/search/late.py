@@ -97,8 +97,12 @@ def _developing(late: Late, jump: Search) -> Search | None:
     """
     long, short = ([*filter(None, map(late.setting_after, times))] for times in (LONG, SHORT))
     best, is_same = jump, False
+    work = late.setting.work
     for setting in long or short[:1]:
-        after = find_effects(setting)
+        # It is not known whether the effects of a search that was stopped are better.
+        after = None if work.is_stopped else find_effects(setting)
+        if after is None or work.is_stopped:
+            break
         is_same = {*after.best.effects} == {*jump.best.effects}
         if not (begins_late(after) and is_no_worse_on_the_same(after, best)):
             break

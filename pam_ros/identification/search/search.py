@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A loop over moves from model to model, until no move is accepted."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from itertools import islice
 
@@ -101,7 +101,8 @@ def find_effects_from(search: Search, model: Model) -> Search:
     less = _without_needless_effects(model, search)
     is_better = is_no_worse if search.kept else is_accepted
     if is_better(less, search.retuned, search.setting):
-        search.best = free_parameters(less, search)
+        freed = _attempted(search, lambda search: free_parameters(less, search))
+        search.best = freed or less
     else:
         search.kept = ()
     return confirmed(improved(search))
@@ -110,13 +111,15 @@ def find_effects_from(search: Search, model: Model) -> Search:
 def improved(found: Search) -> Search:
     """Return the search after moves from its best model, until none is accepted."""
     setting, budget = found.setting, found.setting.budget
+    if setting.work.is_stopped:
+        return found
     begin_search(found.retuned, setting)
     for n in range(budget.rounds):
         if len(found.best.effects) >= budget.effects or is_complete(found.best, setting):
             break
         setting.work.step(f'trying effects, round {n + 1}', of_rounds(setting, found.rounds))
         before = setting.work.done
-        better = _add_effect(found) or exchange_effect(found)
+        better = _attempted(found, lambda search: _add_effect(search) or exchange_effect(search))
         found.rounds.append(setting.work.done - before)
         if better is None:
             break
@@ -126,11 +129,23 @@ def improved(found: Search) -> Search:
 
 def confirmed(found: Search) -> Search:
     """Return the search with its best model confirmed, see :func:`confirm`."""
-    if found.best.effects:
+    if found.best.effects and not found.setting.work.is_stopped:
         rest = of_confirming(found.rounds)
         found.setting.work.step('confirming the effects with finer steps', rest)
-        found.best = confirm(found)
+        found.best = _attempted(found, confirm) or found.best
     return found
+
+
+def _attempted(search: Search, move: Callable[[Search], Model | None]) -> Model | None:
+    """Return move(search), None if the user stops it, which is possible at any time.
+
+    The models of a move that did not end are forgotten: they were compared with no other.
+    """
+    work, count = search.setting.work, len(search.evaluated)
+    model = work.attempt(lambda: move(search))
+    if work.is_stopped:
+        del search.evaluated[count:]
+    return model
 
 
 def _add_effect(search: Search) -> Model | None:
