@@ -33,7 +33,7 @@ FLOORS = (
     ('pam_ros.sizes',),
     ('pam_ros.control', 'pam_ros.devices', 'pam_ros.identification'),
     ('pam_ros.settings',),
-    ('pam_ros.report', 'pam_ros.simulator'),
+    ('pam_ros.presets', 'pam_ros.report', 'pam_ros.simulator'),
     (
         *('pam_ros.batch', 'pam_ros.bench', 'pam_ros.command', 'pam_ros.demo'),
         *('pam_ros.health', 'pam_ros.plot'),
