@@ -6,7 +6,7 @@ import pytest
 from sensor_msgs.msg import FluidPressure
 from std_msgs.msg import Float64, Float64MultiArray
 
-from support.commanding import WAIT, command
+from support.commanding import WAIT, command, said
 from support.harness import Program
 
 pytestmark = [pytest.mark.usefixtures('domain'), pytest.mark.at_any_pace]
@@ -35,7 +35,7 @@ def test_it_is_repeated_until_ctrl_c_and_then_the_muscle_vents(peer):
             assert gauge(found) == 300e3
             program.interrupt()
             assert program.wait() == 0
-            assert program.output == (
+            assert said(program) == (
                 '/pam_sim received 300000 Pa on /pressure_command, repeated 10 times a second '
                 'until Ctrl-C: it vents 1 s after the last command\n'
             )
@@ -146,7 +146,7 @@ def test_a_rig_that_tells_nothing_is_commanded_until_it_ends(peer):
         peer.node.destroy_subscription(valve)
         peer.until(lambda: not program.is_running, 'the end of the program')
         assert program.wait() == 1
-        first, _, last = program.output.splitlines()[-3:]
+        first, _, last = said(program).splitlines()[-3:]
     assert {message.data for message in received} == {300e3}
     assert first.endswith('until Ctrl-C, because its time-out is not known')
     assert last == 'pam_command: no node receives /pressure_command any more'
@@ -174,9 +174,9 @@ def test_a_topic_of_another_type_is_named(peer):
 
 
 def test_nothing_there_is_one_sentence_after_one_that_it_waits(domain):
-    end = command('pressure', '1bar', wait=('--wait', '1.5'))
-    assert end.code == 1
-    first, last = end.output.splitlines()
+    with Program('pam_command', '--', 'pressure', '1bar', '--wait', '1.5') as program:
+        assert program.wait() == 1
+        first, last = program.output.splitlines()
     assert first == (
         'pam_command: waits up to 1.5 s for a subscriber of /pressure_command or '
         '/pressure_commands'
